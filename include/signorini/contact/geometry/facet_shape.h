@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include "signorini/discretization/contact_surface.h"
+
+#include <array>
+
+namespace signorini::contact
+{
+/// Values and local derivatives of a facet's shape functions at one local point.
+template <int dim>
+struct FacetShape
+{
+  static constexpr unsigned int n_second = (dim == 2 ? 1 : 3); ///< 11 (2-D); 11, 12, 22 (3-D)
+
+  unsigned int n_nodes = 0;
+  std::array<double, Facet<dim>::max_n_nodes> value{};
+  std::array<std::array<double, dim - 1>, Facet<dim>::max_n_nodes> first{};
+  std::array<std::array<double, n_second>, Facet<dim>::max_n_nodes> second{};
+};
+
+/// Evaluates all shape functions of a facet of the given degree (1 or 2) at `xi`.
+template <int dim>
+FacetShape<dim> evaluate_facet_shape(unsigned int degree, const LocalPoint<dim> &xi);
+
+/// Positions of one facet's nodes, in the order of `Facet::nodes`.
+template <int dim>
+struct FacetNodes
+{
+  unsigned int degree = 1;
+  unsigned int n_nodes = 0;
+  std::array<SpatialVector<dim>, Facet<dim>::max_n_nodes> position;
+};
+
+/// Collects the nodes of `facet` out of the positions of all surface nodes.
+template <int dim>
+FacetNodes<dim> gather_nodes(const Facet<dim> &facet, const std::vector<SpatialVector<dim>> &positions);
+
+/// Position and tangents of a facet at one local point.
+template <int dim>
+struct FacetFrame
+{
+  SpatialVector<dim> position;
+  std::array<SpatialVector<dim>, dim - 1> tangent; ///< ∂x/∂ξ_α
+  SpatialVector<dim> area_normal;                  ///< outward normal scaled by dA/dξ
+};
+
+template <int dim>
+FacetFrame<dim> evaluate_facet_frame(const FacetNodes<dim> &nodes, const LocalPoint<dim> &xi);
+} // namespace signorini::contact

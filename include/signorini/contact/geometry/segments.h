@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include "signorini/contact/geometry/facet_shape.h"
+
+#include <vector>
+
+namespace signorini::contact
+{
+/// A point of integration on a facet.
+template <int dim>
+struct FacetQuadraturePoint
+{
+  LocalPoint<dim> xi;
+  double weight = 0.; ///< measure of the facet's local square [0, 1]^(dim−1) that the point stands for
+};
+
+/// Tensor-product Gauss points of the whole facet, `n_points` a direction; weights sum to 1.
+template <int dim>
+std::vector<FacetQuadraturePoint<dim>> make_gauss_points(unsigned int n_points);
+
+/// Gauss points on the part of facet `contactor` that `target` covers when both are seen along the contactor's
+/// mean normal: `target`'s outline is clipped against `contactor`'s, the polygon cut into triangles, and points of an
+/// exact rule of order 2·`n_points` − 1 placed in each and mapped back to the contactor's local square.
+///
+/// Facets of degree 2 are treated as their (straight-edged) sub-facets, so that the outline follows the mid-side nodes.
+/// Returns nothing where they do not overlap, where the mean normals do not oppose each other, or where the overlap is
+/// below 1e-14 of the contactor.
+template <int dim>
+std::vector<FacetQuadraturePoint<dim>> make_segment_points(const FacetNodes<dim> &contactor, const FacetNodes<dim> &target,
+                                                           unsigned int n_points);
+} // namespace signorini::contact

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include "signorini/base/spatial_vector.h"
+
+#include <array>
+#include <vector>
+
+namespace signorini
+{
+/// One element face that may touch something: a tensor-product Lagrange patch of degree 1 or 2.
+///
+/// Node (i, j) of the patch, at the local point (i/degree, j/degree), has index i + (degree + 1) j. The nodes
+/// run so that the normal t_0 × t_1 (in 2-D: t_0 turned by −90°, (t_y, −t_x)) points out of the body.
+template <int dim>
+struct Facet
+{
+  static constexpr unsigned int max_n_nodes = (dim == 2 ? 3 : 9);
+
+  std::array<unsigned int, max_n_nodes> nodes{}; ///< indices into the surface's nodes; the first n_nodes count
+  unsigned int degree = 1;                       ///< polynomial degree, 1 or 2
+  unsigned int body = 0;                         ///< index of the body it belongs to
+  bool owned = true;                             ///< whether this rank integrates over it
+  double layer_thickness = 0.;                   ///< h: size of the element behind the face, along its normal [m]
+  double youngs_modulus = 0.;                    ///< E of that element [Pa]
+  double density = 0.;                           ///< ρ of that element [kg/m³]
+
+  unsigned int n_nodes() const { return dim == 2 ? degree + 1 : (degree + 1) * (degree + 1); }
+};
+
+/// The outer faces of all bodies of a scene, as the contact module sees them: facets on nodes, nothing of the
+/// elements behind. Every rank holds all facets; `Facet::owned` says which ones it integrates over.
+template <int dim>
+struct ContactSurface
+{
+  std::vector<SpatialVector<dim>> reference_positions; ///< one a node, undeformed [m]
+  std::vector<Facet<dim>> facets;
+  unsigned int n_bodies = 0;
+
+  unsigned int n_nodes() const { return static_cast<unsigned int>(reference_positions.size()); }
+};
+} // namespace signorini
