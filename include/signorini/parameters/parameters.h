@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include <array>
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+/// Plain structs, one a subsection of the parameter file, filled and checked by read_parameters(). Vectors have three
+/// components always; in two dimensions the third is zero. Units are SI or any other consistent set.
+namespace signorini
+{
+using Triple = std::array<double, 3>;
+
+/// `subsection Mesh` of a body: a generated hexahedral (quadrilateral) mesh.
+///
+/// Boundaries are named after the shape: box: left, right (−x, +x), front, back (−y, +y; in 2-D bottom, top are −y, +y),
+/// bottom, top (−z, +z). ball: surface, and for parts of a ball x, y, z for the cuts x = 0, y = 0, z = 0.
+/// cylinder (axis z; 3-D only): side, bottom, top.
+struct MeshParameters
+{
+  enum class Shape
+  {
+    box,
+    ball,
+    cylinder
+  };
+  /// Which part of a ball: whole; the half with last coordinate ≥ 0; the positive quadrant or octant.
+  enum class Part
+  {
+    whole,
+    half,
+    orthant
+  };
+  /// Cells near a point (or within a distance of a face's plane) are refined further.
+  struct Grading
+  {
+    Triple point{};          ///< centre of refinement, in the body's own coordinates before placement [m]
+    std::optional<std::string> boundary; ///< instead of a point: refine towards the boundary of this name
+    double distance = 0.;    ///< cells nearer than this get all levels [m]
+    unsigned int levels = 0; ///< additional refinements there; each level less doubles the distance
+  };
+
+  Shape shape = Shape::box;
+  Part part = Part::whole;
+  Triple lower_corner{};                       ///< box [m]
+  Triple upper_corner{1., 1., 1.};             ///< box [m]
+  std::array<unsigned int, 3> cells{1, 1, 1};  ///< box: coarse cells a direction
+  double radius = 1.;                          ///< ball, cylinder [m]
+  double length = 1.;                          ///< cylinder [m]
+  unsigned int refinements = 0;                ///< global refinements of the coarse mesh
+  std::optional<Grading> grading;
+};
+
+/// `subsection Placement` of a body: x ← shift + rotation·(scale·x).
+struct PlacementParameters
+{
+  Triple shift{};                 ///< [m]
+  double rotation_angle = 0.;     ///< [degrees]
+  Triple rotation_axis{0., 0., 1.};
+  double scale = 1.;
+};
+
+/// `subsection Material` of a body.
+struct MaterialParameters
+{
+  enum class Model
+  {
+    linear_elastic, ///< small strain
+    neo_hookean     ///< compressible, finite strain
+  };
+  Model model = Model::linear_elastic;
+  double youngs_modulus = 0.; ///< E > 0 [Pa]
+  double poissons_ratio = 0.; ///< −1 < ν < 0.5
+  double density = 0.;        ///< ρ > 0 [kg/m³]
+};
+
+/// `subsection Support NAME` of a body: prescribed displacement on the boundary NAME; a component left out is free.
+struct SupportParameters
+{
+  std::string boundary;
+  std::array<std::optional<std::string>, 3> displacement; ///< muParser expressions of x, y, z, t [m]
+  int line = 0;                                           ///< where it stands in the file
+};
+
+/// `subsection Load NAME` of a body: a dead traction per undeformed area on the boundary NAME.
+struct LoadParameters
+{
+  std::string boundary;
+  std::array<std::string, 3> traction{{"0", "0", "0"}}; ///< muParser expressions of x, y, z, t [Pa]
+  int line = 0;
+};
+
+/// `subsection Body NAME`.
+struct BodyParameters
+{
+  std::string name;
+  MeshParameters mesh;
+  PlacementParameters placement;
+  MaterialParameters material;
+  Triple initial_velocity{}; ///< [m/s]
+  Triple initial_spin{};     ///< angular velocity about the centre of mass; in 2-D only the third counts [rad/s]
+  std::vector<SupportParameters> supports;
+  std::vector<LoadParameters> loads;
+};
+
+/// `subsection Obstacle NAME`.
+struct ObstacleParameters
+{
+  enum class Shape
+  {
+    plane,
+    sphere
+  };
+  std::string name;
+  Shape shape = Shape::plane;
+  Triple point{};              ///< a point of the plane, or the centre of the sphere [m]
+  Triple normal{0., 0., 1.};   ///< plane: points to where bodies may be
+  double radius = 1.;          ///< sphere [m]
+};
+
+/// `subsection Damping` in `subsection Contact`.
+struct DampingParameters
+{
+  double damping_ratio = 0.; ///< ξ ≥ 0
+};
+
+/// `subsection Contact`.
+struct ContactParameters
+{
+  enum class Integration
+  {
+    automatic, ///< face segments in quasi-static runs, face quadrature in explicit ones
+    face_quadrature,
+    face_segments
+  };
+  double penalty_factor = 10.; ///< α > 0
+  Integration integration = Integration::automatic;
+  unsigned int quadrature_points = 3;  ///< a direction
+  std::vector<std::pair<std::string, std::string>> excluded_pairs; ///< names of two bodies, or a body and an obstacle
+  bool allow_initial_overlap = false;
+  std::optional<DampingParameters> damping;
+};
+
+/// `subsection Quasi-static`.
+struct QuasiStaticParameters
+{
+  enum class LinearSolver
+  {
+    automatic, ///< by size
+    direct,
+    cg_amg
+  };
+  double end_time = 1.;
+  unsigned int load_steps = 1;
+  double tolerance = 1e-9;           ///< relative residual force of every body
+  unsigned int max_iterations = 50;  ///< of Newton in one load step
+  unsigned int max_bisections = 8;   ///< of a load step that fails
+  LinearSolver linear_solver = LinearSolver::automatic;
+};
+
+/// `subsection Explicit`.
+struct ExplicitParameters
+{
+  double end_time = 1.;              ///< [s]
+  double bulk_step_factor = 0.9;     ///< share of the linear stability bound of the bodies
+  double contact_step_factor = 0.5;  ///< share of the bound with contact springs: unilateral contact needs less than 1
+  double ledger_tolerance = 0.05;    ///< stop when the energy ledger is open by more, relative to the largest energy
+};
+
+/// `subsection Exact solution`: what the run is measured against.
+struct ExactSolutionParameters
+{
+  std::string name;                     ///< entry of the table of exact solutions
+  std::map<std::string, double> values; ///< its numerical parameters, all present
+};
+
+/// `subsection Output`.
+struct OutputParameters
+{
+  std::string directory;             ///< default: output/NAME of the parameter file
+  unsigned int n_fields = 10;        ///< how many VTU files a run writes, beside the first
+  unsigned int n_statistics = 200;   ///< about how many rows of statistics.csv an explicit run writes
+};
+
+struct Parameters
+{
+  unsigned int dimension = 3;
+  unsigned int degree = 1;     ///< of all elements, 1 or 2
+  Triple gravity{};            ///< [m/s²]
+  std::vector<BodyParameters> bodies;
+  std::vector<ObstacleParameters> obstacles;
+  std::optional<ContactParameters> contact;
+  std::variant<QuasiStaticParameters, ExplicitParameters> solver;
+  std::optional<ExactSolutionParameters> exact_solution;
+  OutputParameters output;
+};
+} // namespace signorini
