@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include "signorini/parameters/declarations.h"
+#include "signorini/parameters/parameters.h"
+
+#include <string>
+#include <vector>
+
+namespace signorini
+{
+/// Declare `Mesh` of a body, with the keys that belong to its shape.
+void declare_mesh(Declarations &declarations, const DeclarationScope &scope, const std::string &path);
+
+/// Read and check it. Throws InputError.
+MeshParameters read_mesh(const ParameterText &text, const Declarations &in_use, const std::string &path,
+                         unsigned int dimension);
+
+/// Names of the boundaries of a mesh, as Support, Load and Grading use them.
+std::vector<std::string> boundary_names(const MeshParameters &mesh, unsigned int dimension);
+
+/// Points that bound one boundary of a mesh, before placement.
+std::vector<Triple> boundary_points(const MeshParameters &mesh, unsigned int dimension,
+                                    const std::string &boundary);
+} // namespace signorini

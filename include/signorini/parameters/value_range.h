@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include <limits>
+#include <string>
+#include <vector>
+
+namespace signorini
+{
+/// Which values an entry may have.
+struct ValueRange
+{
+  enum class Kind
+  {
+    text,    ///< anything but nothing
+    names,   ///< distinct names of letters, digits, _ and -, separated by commas
+    boolean, ///< true or false
+    choice,  ///< one of a list of names
+    integer,
+    number
+  };
+  Kind kind = Kind::text;
+  double lower = -std::numeric_limits<double>::max();
+  double upper = std::numeric_limits<double>::max();
+  bool lower_excluded = false;
+  bool upper_excluded = false;
+  unsigned int min_components = 1; ///< integers and numbers: how many, separated by commas
+  unsigned int max_components = 1;
+  std::vector<std::string> choices;
+
+  bool contains(const std::string &value) const;
+  std::string description() const;
+};
+
+/// Ranges by the names they are declared with.
+ValueRange any_text();
+ValueRange any_names();
+ValueRange true_or_false();
+ValueRange one_of(const std::vector<std::string> &choices);
+ValueRange any_number();
+ValueRange number_above(double lower);
+ValueRange number_from(double lower);
+/// Both ends excluded.
+ValueRange number_between(double lower, double upper);
+/// Lower end excluded.
+ValueRange number_above_up_to(double lower, double upper);
+ValueRange integer_from(long lower, long upper);
+/// `range` for each of min to max components separated by commas.
+ValueRange list_of(ValueRange range, unsigned int min_components, unsigned int max_components);
+} // namespace signorini

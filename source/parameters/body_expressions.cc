@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "signorini/parameters/body_expressions.h"
+
+#include "signorini/base/exceptions.h"
+#include "signorini/parameters/expression.h"
+#include "signorini/parameters/mesh_parameters.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace signorini
+{
+namespace
+{
+/// Rodrigues' formula.
+Triple rotate(const PlacementParameters &placement, const Triple &x)
+{
+  constexpr double degree = 3.14159265358979323846 / 180.;
+  const double angle = placement.rotation_angle * degree;
+  Triple axis = placement.rotation_axis;
+  const double length = std::hypot(axis[0], axis[1], axis[2]);
+  for (double &component : axis)
+    component /= length;
+  const double along = axis[0] * x[0] + axis[1] * x[1] + axis[2] * x[2];
+  Triple result{};
+  for (unsigned int c = 0; c < 3; ++c)
+  {
+    const unsigned int d = (c + 1) % 3;
+    const unsigned int e = (c + 2) % 3;
+    const double cross = axis[d] * x[e] - axis[e] * x[d];
+    result[c] = std::cos(angle) * x[c] + std::sin(angle) * cross + (1. - std::cos(angle)) * along * axis[c];
+  }
+  return result;
+}
+
+/// A formula with all that is needed to complain about it.
+struct PlacedFormula
+{
+  std::string formula;
+  std::string name;  ///< subsection and key
+  std::string where; ///< file and line
+};
+
+Expression make_expression(const PlacedFormula &formula)
+{
+  try
+  {
+    return Expression(formula.formula);
+  }
+  catch (const InputError &error)
+  {
+    throw InputError(
+        Complaint(error.complaint()).at(formula.where).found(formula.name + " = " + formula.formula));
+  }
+}
+
+void check_formula(const PlacedFormula &formula, const std::vector<Triple> &points, const double end_time)
+{
+  const Expression expression = make_expression(formula);
+  for (const double t : {0., end_time})
+    for (const Triple &x : points)
+      if (const double value = expression.value(x, t); !std::isfinite(value))
+        throw InputError(Complaint(fmt::format("the expression is {} at x = {}, y = {}, z = {}, t = {}",
+                                               value, x[0], x[1], x[2], t))
+                             .at(formula.where)
+                             .found(formula.name + " = " + formula.formula)
+                             .expected("finite values wherever it is used")
+                             .advise("correct the formula, or restrict it with if(condition, value, other)"));
+}
+
+std::string place_of(const ParameterText &text, const std::string &path, const std::string &key)
+{
+  const ParameterEntry *const entry = text.find(path, key);
+  return entry != nullptr ? entry->where() : text.where(path);
+}
+} // namespace
+
+Triple place(const PlacementParameters &placement, const Triple &x)
+{
+  Triple result = rotate(placement, x);
+  for (unsigned int c = 0; c < 3; ++c)
+    result[c] = placement.shift[c] + placement.scale * result[c];
+  return result;
+}
+
+void check_expressions(const ParameterText &text, const BodyParameters &body, const unsigned int dimension,
+                       const double end_time)
+{
+  const auto placed_points = [&](const std::string &boundary)
+  {
+    std::vector<Triple> points = boundary_points(body.mesh, dimension, boundary);
+    for (Triple &point : points)
+      point = place(body.placement, point);
+    return points;
+  };
+  for (const SupportParameters &support : body.supports)
+    for (unsigned int c = 0; c < dimension; ++c)
+      if (support.displacement[c])
+      {
+        const std::string path = "Body " + body.name + "/Support " + support.boundary;
+        const std::string key(1, "xyz"[c]);
+        check_formula({*support.displacement[c], join_path(path, key), place_of(text, path, key)},
+                      placed_points(support.boundary), end_time);
+      }
+  for (const LoadParameters &load : body.loads)
+    for (unsigned int c = 0; c < dimension; ++c)
+    {
+      const std::string path = "Body " + body.name + "/Load " + load.boundary;
+      check_formula({load.traction[c], path + "/Traction", place_of(text, path, "Traction")},
+                    placed_points(load.boundary), end_time);
+    }
+}
+} // namespace signorini

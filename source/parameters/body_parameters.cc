@@ -1,0 +1,229 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "signorini/parameters/body_parameters.h"
+
+#include "signorini/parameters/mesh_parameters.h"
+#include "signorini/parameters/section_reader.h"
+#include "signorini/parameters/strings.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace signorini
+{
+namespace
+{
+const NameTable<MaterialParameters::Model> &models()
+{
+  static const NameTable<MaterialParameters::Model> table{
+      {"linear elastic", MaterialParameters::Model::linear_elastic},
+      {"neo-Hookean", MaterialParameters::Model::neo_hookean}};
+  return table;
+}
+
+void declare_placement(Declarations &declarations, const DeclarationScope &scope, const std::string &path)
+{
+  SubsectionDeclaration placement(
+      declarations, path,
+      "Where the mesh is put: first scaled, then rotated, both about the origin, then "
+      "shifted.");
+  placement.add("Shift", scope.vector(), scope.components("0, 0, 0"), "m", "Displacement of the whole mesh.");
+  placement.add("Rotation angle", any_number(), "0", "degrees", "Angle of rotation, counter-clockwise.");
+  if (scope.dimension == 3)
+    placement.add("Rotation axis", scope.vector(), "0, 0, 1", "",
+                  "Direction of the axis of rotation, of any length but zero; not in 2-D.");
+  placement.add("Scale", number_above(0.), "1", "", "Factor of all lengths of the mesh.");
+}
+
+void declare_material(Declarations &declarations, const std::string &path)
+{
+  SubsectionDeclaration material(declarations, path, "The material of the body; plane strain in 2-D.");
+  material.add("Model", one_of(names_in(models())), "linear elastic", "",
+               "Small strain, or compressible finite strain; a body that rotates needs the latter.");
+  material.add_required("Young's modulus", number_above(0.), "Pa", "Stiffness in uniaxial tension.");
+  material.add_required("Poisson's ratio", number_between(-1., 0.5), "", "Transverse contraction.");
+  material.add("Density", number_above(0.), "", "kg/m³",
+               "Mass per undeformed volume; needed in explicit runs and with gravity.");
+}
+
+void declare_motion(Declarations &declarations, const DeclarationScope &scope, const std::string &path)
+{
+  SubsectionDeclaration motion(declarations, path, "Rigid motion at time 0; explicit runs only.");
+  motion.add("Velocity", scope.vector(), scope.components("0, 0, 0"), "m/s",
+             "Velocity of the centre of mass.");
+  motion.add("Spin", scope.dimension == 3 ? scope.vector() : list_of(any_number(), 1, 1),
+             scope.dimension == 3 ? "0, 0, 0" : "0", "rad/s",
+             "Angular velocity about the centre of mass: a vector, in 2-D a number.");
+}
+
+void declare_support(Declarations &declarations, const DeclarationScope &scope, const std::string &path)
+{
+  SubsectionDeclaration support(
+      declarations, path,
+      "Prescribed displacement of the boundary of this name (box: left, right, front, back, "
+      "bottom, top; ball: surface, and x, y, z for the cuts; cylinder: side, bottom, top).");
+  for (const std::string component : {"x", "y", "z"})
+    if (component != "z" || scope.dimension == 3)
+      support.add(component, any_text(), "", "m",
+                  "Displacement along " + component + ", a formula of x, y, z, t; absent: free.");
+}
+
+void declare_load(Declarations &declarations, const std::string &path)
+{
+  SubsectionDeclaration load(declarations, path, "Traction on the boundary of this name.");
+  load.add_required(
+      "Traction", any_text(), "Pa",
+      "Force per undeformed area: a formula of x, y, z, t for each component, separated by ';'.");
+}
+
+/// Supports or loads that are declared: those in the file and, as a pattern for all, NAME.
+std::vector<std::string> boundary_subsections(const DeclarationScope &scope, const std::string &body,
+                                              const std::string &prefix)
+{
+  std::vector<std::string> names = scope.text.names_below(body, prefix);
+  const std::string pattern = prefix + "NAME";
+  if (scope.extent == Extent::everything && std::find(names.begin(), names.end(), pattern) == names.end())
+    names.push_back(pattern);
+  return names;
+}
+
+PlacementParameters read_placement(const SectionReader &section, const unsigned int dimension)
+{
+  PlacementParameters placement;
+  placement.shift = section.vector("Shift");
+  placement.rotation_angle = section.number("Rotation angle");
+  if (dimension == 3)
+    placement.rotation_axis = section.vector("Rotation axis");
+  if (placement.rotation_axis == Triple{})
+    throw InputError(section.complain("Rotation axis", "the axis of rotation has length zero")
+                         .expected("a vector other than zero")
+                         .advise("give its direction, such as 0, 0, 1"));
+  placement.scale = section.number("Scale");
+  return placement;
+}
+
+MaterialParameters read_material(const SectionReader &section)
+{
+  MaterialParameters material;
+  material.model = section.choice("Model", models());
+  material.youngs_modulus = section.number("Young's modulus");
+  material.poissons_ratio = section.number("Poisson's ratio");
+  if (section.given("Density"))
+    material.density = section.number("Density");
+  return material;
+}
+
+void read_motion(const SectionReader &section, const unsigned int dimension, BodyParameters &body)
+{
+  body.initial_velocity = section.vector("Velocity");
+  if (dimension == 3)
+    body.initial_spin = section.vector("Spin");
+  else
+    body.initial_spin[2] = section.number("Spin");
+  if (body.initial_spin != Triple{} && body.material.model == MaterialParameters::Model::linear_elastic)
+    throw InputError(
+        section
+            .complain("Spin", fmt::format("body '{}' spins, but its material is linear elastic: small strain "
+                                          "takes a rotation for a deformation",
+                                          body.name))
+            .expected("no spin with Model = linear elastic")
+            .advise("set Model = neo-Hookean in its Material"));
+}
+
+/// The boundary of `Support NAME` or `Load NAME`; throws if the mesh has none of that name.
+std::string read_boundary(const SectionReader &section, const std::string &prefix, const BodyParameters &body,
+                          const unsigned int dimension)
+{
+  const std::string boundary = ParameterSubsection{section.path(), "", 0}.name().substr(prefix.size());
+  const std::vector<std::string> names = boundary_names(body.mesh, dimension);
+  if (std::find(names.begin(), names.end(), boundary) == names.end())
+    throw InputError(
+        section.complain(fmt::format("the mesh of body '{}' has no boundary '{}'", body.name, boundary))
+            .found(section.path())
+            .expected("one of " + join(names, ", "))
+            .did_you_mean(nearest_name(boundary, names))
+            .advise("use a boundary of this shape"));
+  return boundary;
+}
+
+SupportParameters read_support(const SectionReader &section, const BodyParameters &body,
+                               const unsigned int dimension)
+{
+  SupportParameters support;
+  support.boundary = read_boundary(section, "Support ", body, dimension);
+  for (unsigned int c = 0; c < dimension; ++c)
+    if (const std::string key(1, "xyz"[c]); section.given(key))
+      support.displacement[c] = section.value(key);
+  if (std::none_of(support.displacement.begin(), support.displacement.end(),
+                   [](const auto &component) { return component.has_value(); }))
+    throw InputError(section.complain("a support holds no component")
+                         .found(section.path())
+                         .advise("set x, y or z, for example 'set x = 0', or remove the support"));
+  return support;
+}
+
+LoadParameters read_load(const SectionReader &section, const BodyParameters &body,
+                         const unsigned int dimension)
+{
+  LoadParameters load;
+  load.boundary = read_boundary(section, "Load ", body, dimension);
+  const std::vector<std::string> parts = split(section.value("Traction"), ';');
+  const bool complete =
+      std::none_of(parts.begin(), parts.end(), [](const auto &part) { return part.empty(); });
+  if (parts.size() != dimension || !complete)
+    throw InputError(
+        section
+            .complain("Traction",
+                      fmt::format("a traction needs {} formulas, not {}", dimension, parts.size()))
+            .expected(fmt::format("{} formulas separated by ';'", dimension))
+            .advise(dimension == 3 ? "write for example 0; 0; -1e6*t" : "write for example 0; -1e6*t"));
+  std::copy(parts.begin(), parts.end(), load.traction.begin());
+  return load;
+}
+} // namespace
+
+void declare_body(Declarations &declarations, const DeclarationScope &scope, const std::string &name)
+{
+  const std::string path = "Body " + name;
+  SubsectionDeclaration(declarations, path, "A deformable body; its name stands in 'Bodies'.");
+  declare_mesh(declarations, scope, path + "/Mesh");
+  if (scope.includes(path + "/Placement"))
+    declare_placement(declarations, scope, path + "/Placement");
+  declare_material(declarations, path + "/Material");
+  if (scope.includes(path + "/Initial motion"))
+    declare_motion(declarations, scope, path + "/Initial motion");
+  for (const std::string &support : boundary_subsections(scope, path, "Support "))
+    declare_support(declarations, scope, join_path(path, support));
+  for (const std::string &load : boundary_subsections(scope, path, "Load "))
+    declare_load(declarations, join_path(path, load));
+}
+
+BodyParameters read_body(const ParameterText &text, const Declarations &in_use, const std::string &name,
+                         const unsigned int dimension)
+{
+  const std::string path = "Body " + name;
+  const auto section = [&](const std::string &subsection)
+  { return SectionReader(text, in_use, join_path(path, subsection), dimension); };
+  const auto line_of = [&](const std::string &subsection)
+  { return text.find_subsection(join_path(path, subsection))->line; };
+  BodyParameters body;
+  body.name = name;
+  body.mesh = read_mesh(text, in_use, path + "/Mesh", dimension);
+  if (text.find_subsection(path + "/Placement") != nullptr)
+    body.placement = read_placement(section("Placement"), dimension);
+  body.material = read_material(section("Material"));
+  if (text.find_subsection(path + "/Initial motion") != nullptr)
+    read_motion(section("Initial motion"), dimension, body);
+  for (const std::string &support : text.names_below(path, "Support "))
+  {
+    body.supports.push_back(read_support(section(support), body, dimension));
+    body.supports.back().line = line_of(support);
+  }
+  for (const std::string &load : text.names_below(path, "Load "))
+  {
+    body.loads.push_back(read_load(section(load), body, dimension));
+    body.loads.back().line = line_of(load);
+  }
+  return body;
+}
+} // namespace signorini

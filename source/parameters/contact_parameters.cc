@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "signorini/parameters/contact_parameters.h"
+
+#include "signorini/parameters/section_reader.h"
+#include "signorini/parameters/strings.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace signorini
+{
+namespace
+{
+const NameTable<ObstacleParameters::Shape> &shapes()
+{
+  static const NameTable<ObstacleParameters::Shape> table{{"plane", ObstacleParameters::Shape::plane},
+                                                          {"sphere", ObstacleParameters::Shape::sphere}};
+  return table;
+}
+
+const NameTable<ContactParameters::Integration> &integrations()
+{
+  static const NameTable<ContactParameters::Integration> table{
+      {"automatic", ContactParameters::Integration::automatic},
+      {"face quadrature", ContactParameters::Integration::face_quadrature},
+      {"face segments", ContactParameters::Integration::face_segments}};
+  return table;
+}
+
+bool is_in(const std::string &name, const std::vector<std::string> &names)
+{
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+std::vector<std::pair<std::string, std::string>> read_pairs(const SectionReader &section,
+                                                            const std::vector<std::string> &bodies,
+                                                            const std::vector<std::string> &obstacles)
+{
+  std::vector<std::string> all = bodies;
+  all.insert(all.end(), obstacles.begin(), obstacles.end());
+  std::vector<std::pair<std::string, std::string>> pairs;
+  for (const std::string &pair : split(section.value("Excluded pairs"), ','))
+  {
+    const auto complain = [&](const std::string &what) { return section.complain("Excluded pairs", what); };
+    const std::vector<std::string> names = split(pair, ':');
+    if (names.size() != 2)
+      throw InputError(complain(fmt::format("'{}' is not a pair", pair))
+                           .expected("pairs of names as in a:b, c:d")
+                           .advise("write the two names with a ':' between them"));
+    for (const std::string &name : names)
+      if (!is_in(name, all))
+        throw InputError(complain(fmt::format("there is no body or obstacle '{}'", name))
+                             .expected("two of " + join(all, ", "))
+                             .did_you_mean(nearest_name(name, all))
+                             .advise("correct the name or remove the pair"));
+    if (names[0] == names[1] || (is_in(names[0], obstacles) && is_in(names[1], obstacles)))
+      throw InputError(complain(fmt::format("'{}' is never in contact", pair))
+                           .expected("two different bodies, or a body and an obstacle")
+                           .advise("remove the pair"));
+    pairs.emplace_back(names[0], names[1]);
+  }
+  return pairs;
+}
+} // namespace
+
+void declare_obstacle(Declarations &declarations, const DeclarationScope &scope, const std::string &name)
+{
+  const std::string path = "Obstacle " + name;
+  SubsectionDeclaration obstacle(declarations, path,
+                                 "A rigid, fixed obstacle; its name stands in 'Obstacles'.");
+  obstacle.add("Shape", one_of(names_in(shapes())), "plane", "",
+               "Half-space behind a plane, or sphere (2-D: disk).");
+  obstacle.add("Point", scope.vector(), scope.components("0, 0, 0"), "m",
+               "A point of the plane, or the centre of the sphere.");
+  if (scope.chosen(path, "Shape", "plane", "plane"))
+    obstacle.add("Normal", scope.vector(), scope.dimension == 3 ? "0, 0, 1" : "0, 1", "",
+                 "Plane: points to where bodies may be, of any length but zero.");
+  if (scope.chosen(path, "Shape", "sphere", "plane"))
+    obstacle.add("Radius", number_above(0.), "1", "m", "Sphere: radius.");
+}
+
+ObstacleParameters read_obstacle(const ParameterText &text, const Declarations &in_use,
+                                 const std::string &name, const unsigned int dimension)
+{
+  const SectionReader section(text, in_use, "Obstacle " + name, dimension);
+  ObstacleParameters obstacle;
+  obstacle.name = name;
+  obstacle.shape = section.choice("Shape", shapes());
+  obstacle.point = section.vector("Point");
+  if (obstacle.shape == ObstacleParameters::Shape::sphere)
+  {
+    obstacle.radius = section.number("Radius");
+    return obstacle;
+  }
+  obstacle.normal = section.vector("Normal");
+  if (obstacle.normal == Triple{})
+    throw InputError(
+        section.complain("Normal", fmt::format("the normal of obstacle '{}' has length zero", name))
+            .expected("a vector other than zero")
+            .advise("give the direction in which bodies may be, such as 0, 0, 1"));
+  return obstacle;
+}
+
+void declare_contact(Declarations &declarations, const DeclarationScope &scope)
+{
+  SubsectionDeclaration contact(declarations, "Contact",
+                                "Contact of bodies with each other and with obstacles.");
+  contact.add("Penalty factor", number_above(0.), "10", "",
+              "α: stiffness of the contact relative to that of the cells behind it.");
+  contact.add("Integration", one_of(names_in(integrations())), "automatic", "",
+              "Automatic: face segments in quasi-static runs, face quadrature in explicit ones.");
+  contact.add("Quadrature points", integer_from(1, 8), "3", "",
+              "Quadrature points in each direction of a face.");
+  contact.add("Excluded pairs", any_text(), "", "",
+              "Pairs of bodies, or of a body and an obstacle, that ignore each other: a:b, c:d.");
+  contact.add(
+      "Allow initial overlap", true_or_false(), "false", "",
+      "Start although bodies overlap by more than a tenth of a cell; the energy of the overlap is reported.");
+  if (scope.includes("Contact/Damping"))
+    SubsectionDeclaration(declarations, "Contact/Damping", "Dissipation in contact; explicit runs only.")
+        .add_required("Damping ratio", number_from(0.), "", "ξ: share of critical damping of the contact.");
+}
+
+ContactParameters read_contact(const ParameterText &text, const Declarations &in_use,
+                               const std::vector<std::string> &bodies,
+                               const std::vector<std::string> &obstacles)
+{
+  const SectionReader section(text, in_use, "Contact", 3);
+  ContactParameters contact;
+  contact.penalty_factor = section.number("Penalty factor");
+  contact.integration = section.choice("Integration", integrations());
+  contact.quadrature_points = section.integer("Quadrature points");
+  contact.excluded_pairs = read_pairs(section, bodies, obstacles);
+  contact.allow_initial_overlap = section.boolean("Allow initial overlap");
+  if (text.find_subsection("Contact/Damping") != nullptr)
+    contact.damping =
+        DampingParameters{SectionReader(text, in_use, "Contact/Damping", 3).number("Damping ratio")};
+  return contact;
+}
+} // namespace signorini

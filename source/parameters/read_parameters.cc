@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "signorini/parameters/read_parameters.h"
+
+#include "signorini/base/exceptions.h"
+#include "signorini/parameters/body_expressions.h"
+#include "signorini/parameters/body_parameters.h"
+#include "signorini/parameters/contact_parameters.h"
+#include "signorini/parameters/output_directory.h"
+#include "signorini/parameters/run_parameters.h"
+#include "signorini/parameters/section_reader.h"
+#include "signorini/parameters/strings.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace signorini
+{
+namespace
+{
+/// The dimension, before it has been checked.
+unsigned int dimension_of(const ParameterText &text)
+{
+  return text.value("", "Dimension", "3") == "2" ? 2 : 3;
+}
+
+void declare_top_level(Declarations &declarations, const DeclarationScope &scope)
+{
+  SubsectionDeclaration top(declarations, "", "");
+  top.add("Dimension", integer_from(2, 3), "3", "", "Three, or two for plane strain.");
+  top.add("Degree", integer_from(1, 2), "1", "", "Polynomial degree of all elements.");
+  top.add_required("Bodies", any_names(), "", "Names of the bodies; each has a subsection 'Body NAME'.");
+  top.add("Obstacles", any_names(), "", "", "Names of the obstacles; each has a subsection 'Obstacle NAME'.");
+  top.add("Gravity", scope.vector(), scope.components("0, 0, 0"), "m/s²", "Acceleration of all bodies.");
+}
+
+/// Throws unless the subsection is there.
+void require(const ParameterText &text, const std::string &path, const std::string &reason,
+             const std::string &where)
+{
+  if (text.find_subsection(path) == nullptr)
+    throw InputError(
+        Complaint(fmt::format("subsection '{}' is missing", path))
+            .at(where)
+            .found(reason)
+            .advise(fmt::format("add 'subsection {}' … 'end'", ParameterSubsection{path, "", 0}.name())));
+}
+
+void check_subsections(const ParameterText &text, const SectionReader &top,
+                       const std::vector<std::string> &bodies, const std::vector<std::string> &obstacles)
+{
+  if (bodies.empty())
+    throw InputError(top.complain("Bodies", "'Bodies' is missing: there is nothing to calculate")
+                         .expected("at least one name")
+                         .advise("add 'set Bodies = NAME' and 'subsection Body NAME'"));
+  for (const std::string &body : bodies)
+  {
+    const std::string path = "Body " + body;
+    require(text, path, fmt::format("'{}' stands in 'Bodies'", body), top.complain("Bodies", "").where);
+    require(text, path + "/Mesh", "every body has a mesh", text.where(path));
+    require(text, path + "/Material", "every body has a material", text.where(path));
+  }
+  for (const std::string &obstacle : obstacles)
+  {
+    if (std::find(bodies.begin(), bodies.end(), obstacle) != bodies.end())
+      throw InputError(top.complain("Obstacles", fmt::format("'{}' is a body and an obstacle", obstacle))
+                           .advise("give one of them another name"));
+    require(text, "Obstacle " + obstacle, fmt::format("'{}' stands in 'Obstacles'", obstacle),
+            top.complain("Obstacles", "").where);
+  }
+  if (!obstacles.empty())
+    require(text, "Contact", "there are obstacles, which no body can feel without contact",
+            top.complain("Obstacles", "").where);
+}
+
+/// Things that make no sense without inertia.
+void check_quasi_static(const ParameterText &text, const Parameters &parameters)
+{
+  const auto reject = [&text](const std::string &path, const std::string &what)
+  {
+    if (text.find_subsection(path) != nullptr)
+      throw InputError(Complaint(fmt::format("'{}' contradicts 'Quasi-static': {}", path, what))
+                           .at(text.where(path))
+                           .found("'Quasi-static' stands at " + text.where("Quasi-static"))
+                           .advise("remove the subsection, or run 'Explicit'"));
+  };
+  for (const BodyParameters &body : parameters.bodies)
+    reject("Body " + body.name + "/Initial motion", "without inertia there is no velocity");
+  reject("Contact/Damping", "without velocity there is no damping");
+}
+
+void check_densities(const ParameterText &text, const Parameters &parameters)
+{
+  const bool is_explicit = std::holds_alternative<ExplicitParameters>(parameters.solver);
+  const bool has_weight = parameters.gravity != Triple{};
+  for (const BodyParameters &body : parameters.bodies)
+    if ((is_explicit || has_weight) && body.material.density == 0.)
+    {
+      const std::string path = "Body " + body.name + "/Material";
+      throw InputError(Complaint(fmt::format("'{}/Density' is missing", path))
+                           .at(text.where(path))
+                           .found(is_explicit ? "an explicit run needs the mass of every body"
+                                              : "gravity needs the mass of every body")
+                           .expected("a number > 0 [kg/m³]")
+                           .advise("add 'set Density = …' there"));
+    }
+}
+
+/// What can only be seen once all subsections have been read.
+void check_together(const ParameterText &text, const Parameters &parameters)
+{
+  double end_time = 0.;
+  std::visit([&end_time](const auto &run) { end_time = run.end_time; }, parameters.solver);
+  if (std::holds_alternative<QuasiStaticParameters>(parameters.solver))
+    check_quasi_static(text, parameters);
+  check_densities(text, parameters);
+  for (const BodyParameters &body : parameters.bodies)
+    check_expressions(text, body, parameters.dimension, end_time);
+}
+} // namespace
+
+Declarations declare_parameters(const ParameterText &text, const Extent extent)
+{
+  Declarations declarations;
+  const DeclarationScope scope{text, extent, dimension_of(text)};
+  declare_top_level(declarations, scope);
+  for (const std::string &body : split(text.value("", "Bodies"), ','))
+    declare_body(declarations, scope, body);
+  for (const std::string &obstacle : split(text.value("", "Obstacles"), ','))
+    declare_obstacle(declarations, scope, obstacle);
+  if (scope.includes("Contact"))
+    declare_contact(declarations, scope);
+  declare_solver(declarations, scope);
+  declare_exact_solution(declarations, scope);
+  declare_output(declarations, scope);
+  return declarations;
+}
+
+Parameters read_parameters(const ParameterText &text)
+{
+  check_names_and_values(text, declare_parameters(text, Extent::everything));
+  const Declarations in_use = declare_parameters(text, Extent::in_use);
+  const unsigned int dimension = dimension_of(text);
+  const SectionReader top(text, in_use, "", dimension);
+  const std::vector<std::string> bodies = split(top.value("Bodies"), ',');
+  const std::vector<std::string> obstacles = split(top.value("Obstacles"), ',');
+  check_subsections(text, top, bodies, obstacles);
+  check_presence(text, in_use);
+
+  Parameters parameters;
+  parameters.dimension = dimension;
+  parameters.degree = top.integer("Degree");
+  parameters.gravity = top.vector("Gravity");
+  parameters.solver = read_solver(text, in_use);
+  for (const std::string &body : bodies)
+    parameters.bodies.push_back(read_body(text, in_use, body, dimension));
+  for (const std::string &obstacle : obstacles)
+    parameters.obstacles.push_back(read_obstacle(text, in_use, obstacle, dimension));
+  if (text.find_subsection("Contact") != nullptr)
+    parameters.contact = read_contact(text, in_use, bodies, obstacles);
+  if (text.find_subsection("Exact solution") != nullptr)
+    parameters.exact_solution = read_exact_solution(text, in_use);
+  parameters.output = read_output(text, in_use);
+  check_together(text, parameters);
+  const ParameterEntry *const directory = text.find("Output", "Directory");
+  check_output_directory(parameters.output.directory,
+                         directory != nullptr ? directory->where() : text.where(""));
+  return parameters;
+}
+} // namespace signorini

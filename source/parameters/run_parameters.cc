@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "signorini/parameters/run_parameters.h"
+
+#include "signorini/parameters/section_reader.h"
+
+#include <algorithm>
+#include <filesystem>
+
+namespace signorini
+{
+namespace
+{
+const NameTable<QuasiStaticParameters::LinearSolver> &linear_solvers()
+{
+  static const NameTable<QuasiStaticParameters::LinearSolver> table{
+      {"automatic", QuasiStaticParameters::LinearSolver::automatic},
+      {"direct", QuasiStaticParameters::LinearSolver::direct},
+      {"cg amg", QuasiStaticParameters::LinearSolver::cg_amg}};
+  return table;
+}
+
+/// A number that an exact solution needs.
+struct ExactSolutionKey
+{
+  std::string key;
+  ValueRange range;
+  std::string default_value; ///< empty: required
+  std::string unit;
+  std::string text;
+};
+
+/// A known exact solution and its numbers.
+struct ExactSolutionCase
+{
+  std::string name;
+  std::vector<ExactSolutionKey> keys;
+};
+
+const std::vector<ExactSolutionCase> &exact_solutions()
+{
+  static const ExactSolutionKey radius{"Radius", number_above(0.), "", "m",
+                                       "Hertz: radius of the round body."};
+  static const ExactSolutionKey fraction{
+      "Fraction of the contact", number_above_up_to(0., 1.), "1", "",
+      "Hertz: share of the contact that is modelled, such as 0.25 for a quarter."};
+  static const ExactSolutionKey pressure{"Pressure", number_above(0.), "", "Pa",
+                                         "Patch: uniform contact pressure."};
+  static const std::vector<ExactSolutionCase> table{{"Hertz sphere", {radius, fraction}},
+                                                    {"Hertz cylinder", {radius, fraction}},
+                                                    {"Squeezed bars", {}},
+                                                    {"Patch", {pressure}},
+                                                    {"Bar impact", {}},
+                                                    {"Bounce", {}}};
+  return table;
+}
+
+void declare_quasi_static(Declarations &declarations)
+{
+  SubsectionDeclaration run(declarations, "Quasi-static",
+                            "Equilibrium without inertia, in load steps; excludes 'Explicit'.");
+  run.add("End time", number_above(0.), "1", "s",
+          "Time t of the last load step; it only enters the formulas.");
+  run.add("Load steps", integer_from(1, 1000000), "1", "", "Equal steps from time 0 to the end time.");
+  run.add("Tolerance", number_between(0., 1.), "1e-9", "",
+          "Residual force of every body relative to the largest.");
+  run.add("Maximum iterations", integer_from(1, 10000), "50", "", "Newton iterations in one load step.");
+  run.add("Maximum bisections", integer_from(0, 30), "8", "", "How often a load step that fails is halved.");
+  run.add("Linear solver", one_of(names_in(linear_solvers())), "automatic", "",
+          "By size; factorisation; or conjugate gradients with algebraic multigrid.");
+}
+
+void declare_explicit(Declarations &declarations)
+{
+  SubsectionDeclaration run(declarations, "Explicit",
+                            "Motion by explicit time steps; excludes 'Quasi-static'.");
+  run.add("End time", number_above(0.), "1", "s", "Length of the run.");
+  run.add("Bulk step factor", number_above_up_to(0., 1.), "0.9", "",
+          "Time step as a share of the stability bound of the bodies alone.");
+  run.add("Contact step factor", number_between(0., 1.), "0.5", "",
+          "Time step as a share of the bound with contact springs; unilateral contact needs less than 1.");
+  run.add("Ledger tolerance", number_above(0.), "0.05", "",
+          "The run stops when the energy ledger is open by more than this share of the largest energy.");
+}
+
+QuasiStaticParameters read_quasi_static(const SectionReader &section)
+{
+  QuasiStaticParameters run;
+  run.end_time = section.number("End time");
+  run.load_steps = section.integer("Load steps");
+  run.tolerance = section.number("Tolerance");
+  run.max_iterations = section.integer("Maximum iterations");
+  run.max_bisections = section.integer("Maximum bisections");
+  run.linear_solver = section.choice("Linear solver", linear_solvers());
+  return run;
+}
+
+ExplicitParameters read_explicit(const SectionReader &section)
+{
+  ExplicitParameters run;
+  run.end_time = section.number("End time");
+  run.bulk_step_factor = section.number("Bulk step factor");
+  run.contact_step_factor = section.number("Contact step factor");
+  run.ledger_tolerance = section.number("Ledger tolerance");
+  return run;
+}
+} // namespace
+
+void declare_solver(Declarations &declarations, const DeclarationScope &scope)
+{
+  if (scope.includes("Quasi-static"))
+    declare_quasi_static(declarations);
+  if (scope.includes("Explicit"))
+    declare_explicit(declarations);
+}
+
+std::variant<QuasiStaticParameters, ExplicitParameters> read_solver(const ParameterText &text,
+                                                                    const Declarations &in_use)
+{
+  const bool quasi_static = text.find_subsection("Quasi-static") != nullptr;
+  const bool is_explicit = text.find_subsection("Explicit") != nullptr;
+  if (quasi_static && is_explicit)
+    throw InputError(Complaint("'Quasi-static' and 'Explicit' contradict each other")
+                         .at(text.where("Explicit"))
+                         .found("'Quasi-static' stands at " + text.where("Quasi-static"))
+                         .advise("remove one of the two subsections"));
+  if (!quasi_static && !is_explicit)
+    throw InputError(Complaint("the run has neither 'Quasi-static' nor 'Explicit'")
+                         .at(text.where(""))
+                         .expected("exactly one of these subsections")
+                         .advise("add one of the two; it may be empty"));
+  if (quasi_static)
+    return read_quasi_static(SectionReader(text, in_use, "Quasi-static", 3));
+  return read_explicit(SectionReader(text, in_use, "Explicit", 3));
+}
+
+std::vector<std::string> exact_solution_names()
+{
+  std::vector<std::string> names;
+  for (const ExactSolutionCase &entry : exact_solutions())
+    names.push_back(entry.name);
+  return names;
+}
+
+void declare_exact_solution(Declarations &declarations, const DeclarationScope &scope)
+{
+  const std::string path = "Exact solution";
+  if (!scope.includes(path))
+    return;
+  SubsectionDeclaration section(declarations, path, "What the result is measured against.");
+  section.add_required("Case", one_of(exact_solution_names()), "", "Name of the exact solution.");
+  for (const ExactSolutionCase &entry : exact_solutions())
+    for (const ExactSolutionKey &key : entry.keys)
+    {
+      if (!scope.chosen(path, "Case", entry.name, "") || declarations.find(path, key.key) != nullptr)
+        continue;
+      if (key.default_value.empty())
+        section.add_required(key.key, key.range, key.unit, key.text);
+      else
+        section.add(key.key, key.range, key.default_value, key.unit, key.text);
+    }
+}
+
+ExactSolutionParameters read_exact_solution(const ParameterText &text, const Declarations &in_use)
+{
+  const SectionReader section(text, in_use, "Exact solution", 3);
+  ExactSolutionParameters exact;
+  exact.name = section.value("Case");
+  for (const ExactSolutionCase &entry : exact_solutions())
+    if (entry.name == exact.name)
+      for (const ExactSolutionKey &key : entry.keys)
+        exact.values[key.key] = section.number(key.key);
+  return exact;
+}
+
+void declare_output(Declarations &declarations, const DeclarationScope &scope)
+{
+  const std::string &file = scope.text.file;
+  const std::string name = file == "-" ? "standard_input" : std::filesystem::path(file).stem().string();
+  SubsectionDeclaration output(declarations, "Output", "What is written, and where.");
+  output.add("Directory", any_text(), "output/" + name, "",
+             "Directory of all results; made if it does not exist.");
+  output.add("Number of fields", integer_from(0, 100000), "10", "",
+             "VTU files a run writes, beside the first.");
+  output.add("Number of statistics rows", integer_from(1, 100000000), "200", "",
+             "About how many rows of statistics.csv an explicit run writes.");
+}
+
+OutputParameters read_output(const ParameterText &text, const Declarations &in_use)
+{
+  const SectionReader section(text, in_use, "Output", 3);
+  OutputParameters output;
+  output.directory = section.value("Directory");
+  output.n_fields = section.integer("Number of fields");
+  output.n_statistics = section.integer("Number of statistics rows");
+  return output;
+}
+} // namespace signorini
