@@ -9,6 +9,12 @@
 
 namespace signorini::contact
 {
+namespace
+{
+/// Share of the skin up to which a gap counts as closed in the tangent.
+constexpr double verge = 1e-8;
+} // namespace
+
 template <int dim>
 ContactPotential<dim>::ContactPotential(const ContactSurface<dim> &contact_surface, Obstacles obstacles,
                                         PotentialSettings settings)
@@ -204,7 +210,7 @@ void ContactPotential<dim>::for_each_tangent(
   std::vector<unsigned int> nodes;
   Eigen::MatrixXd block;
   for_each_pair_deeper_than(
-      0.,
+      -verge * pairs.skin(),
       [&](const NearPair &near)
       {
         nodes.assign(near.stencil.node.begin(), near.stencil.node.begin() + near.stencil.n_nodes);
@@ -216,6 +222,28 @@ void ContactPotential<dim>::for_each_tangent(
                                    obstacle_hessians[&near.foot - obstacle_feet.data()], block);
         add(nodes, block);
       });
+}
+
+template <int dim>
+void ContactPotential<dim>::for_each_coupling(
+  const std::function<void(const std::vector<unsigned int> &nodes)> &add) const
+{
+  const auto append_nodes = [this](unsigned int facet, std::vector<unsigned int> &nodes)
+  {
+    const Facet<dim> &owner = surface.facets[facet];
+    nodes.insert(nodes.end(), owner.nodes.begin(), owner.nodes.begin() + owner.n_nodes());
+  };
+  std::vector<unsigned int> nodes;
+  for (const FacetNeighbours &neighbours : pairs.neighbours())
+  {
+    nodes.clear();
+    append_nodes(neighbours.facet, nodes);
+    for (const unsigned int candidate : neighbours.candidates)
+      append_nodes(candidate, nodes);
+    std::sort(nodes.begin(), nodes.end());
+    nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+    add(nodes);
+  }
 }
 
 template <int dim>

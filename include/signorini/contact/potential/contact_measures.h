@@ -29,8 +29,8 @@ template <int dim>
 struct ContactSample
 {
   unsigned int facet = 0;
-  LocalPoint<dim> xi;
-  SpatialVector<dim> position;
+  LocalPoint<dim> xi = LocalPoint<dim>::Zero();
+  SpatialVector<dim> position = SpatialVector<dim>::Zero();
   double depth = 0.;    ///< negative: a gap [m]
   double pressure = 0.; ///< k_A d where positive [Pa]
 
