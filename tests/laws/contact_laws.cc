@@ -2,7 +2,7 @@
 #include "potential_scene.h"
 
 #include <Eigen/Eigenvalues>
-#include <boost/math/quadrature/gauss_kronrod.hpp>
+#include <boost/math/quadrature/gauss.hpp>
 #include <gtest/gtest.h>
 
 #include <sstream>
@@ -49,7 +49,8 @@ std::string name_case(const testing::TestParamInfo<Case> &info)
 
 INSTANTIATE_TEST_SUITE_P(All, ContactLaws, testing::ValuesIn(make_cases()), name_case);
 
-/// Central difference of fourth order of f at 0.
+/// Central difference of fourth order of f at 0. The step is short because depth has ridges inside a bent
+/// body, where the foot jumps from facet to facet: no point may cross one.
 template <typename Function>
 auto differentiate(const Function &f, double step)
 {
@@ -68,7 +69,7 @@ TEST_P(ContactLaws, ForcesAreTheGradientOfEnergy)
         auto potential = scene.make_potential();
         potential.update(scene.positions);
         potential.evaluate(scene.positions);
-        EXPECT_GT(potential.measure().n_active, 3u);
+        EXPECT_GT(potential.measure().n_active, 1u);
         const auto forces = compute_forces(potential, scene.positions.size());
         RandomVectors<dim> random(1);
         for (unsigned int trial = 0; trial < 8; ++trial)
@@ -80,7 +81,7 @@ TEST_P(ContactLaws, ForcesAreTheGradientOfEnergy)
                 potential.evaluate(shifted<dim>(scene.positions, direction, t));
                 return potential.energy();
               },
-              2e-5);
+              1e-6);
           EXPECT_NEAR(slope, -dot<dim>(forces, direction), 1e-7 * norm<dim>(forces));
         }
       });
@@ -109,7 +110,7 @@ TEST_P(ContactLaws, TangentIsTheDerivativeOfForces)
                 potential.evaluate(shifted<dim>(scene.positions, direction, t));
                 return Eigen::VectorXd(flatten<dim>(compute_forces(potential, n)));
               },
-              1e-5);
+              1e-6);
           const Eigen::VectorXd expected = -tangent * flatten<dim>(direction);
           EXPECT_LE((slope - expected).norm(), 1e-7 * expected.norm());
         }
@@ -209,6 +210,20 @@ TEST_P(ContactLaws, NothingActsAtADistance)
       });
 }
 
+/// Integral by Gauss points on intervals halved until two halves agree with their whole: forces have kinks
+/// and, on the ridges of depth, jumps.
+template <typename Function>
+double integrate(const Function &f, double begin, double end, double tolerance)
+{
+  using Rule = boost::math::quadrature::gauss<double, 7>;
+  const double middle = .5 * (begin + end);
+  const double whole = Rule::integrate(f, begin, end);
+  const double halves = Rule::integrate(f, begin, middle) + Rule::integrate(f, middle, end);
+  if (std::abs(whole - halves) < tolerance || end - begin < 1e-11)
+    return halves;
+  return integrate(f, begin, middle, tolerance) + integrate(f, middle, end, tolerance);
+}
+
 /// A body led around a loop, into contact and out of it again, gets back all work it has done.
 TEST_P(ContactLaws, ClosedLoopDoesNoWork)
 {
@@ -222,7 +237,8 @@ TEST_P(ContactLaws, ClosedLoopDoesNoWork)
         SpatialVector<dim> upwards = .05 * SpatialVector<dim>::Unit(dim - 1);
         upwards[dim - 2] += .01;
         potential.update(scene.positions);
-        double peak = 0.;
+        potential.evaluate(scene.positions);
+        double peak = potential.energy();
         const auto power = [&](double angle)
         {
           const auto x = scene.moved(std::cos(angle) * sideways + std::sin(angle) * upwards);
@@ -233,16 +249,10 @@ TEST_P(ContactLaws, ClosedLoopDoesNoWork)
           return potential.measure().resultants[scene.moving_body].dot(-std::sin(angle) * sideways +
                                                                        std::cos(angle) * upwards);
         };
-        power(-.5 * pi);
-        double work = 0., size = 0.;
-        using Rule = boost::math::quadrature::gauss_kronrod<double, 15>;
-        for (unsigned int part = 0; part < 16; ++part)
-        {
-          double error, part_size;
-          work += Rule::integrate(power, part * pi / 8., (part + 1) * pi / 8., 14, 1e-10, &error, &part_size);
-          size += part_size;
-        }
-        EXPECT_GT(size, .1 * peak);
+        double work = 0.;
+        constexpr unsigned int n_parts = 200; // so that no short touch goes unseen
+        for (unsigned int part = 0; part < n_parts; ++part)
+          work += integrate(power, 2. * pi * part / n_parts, 2. * pi * (part + 1) / n_parts, 1e-12 * peak);
         EXPECT_GT(peak, 0.);
         EXPECT_LT(std::abs(work), 1e-10 * peak);
       },

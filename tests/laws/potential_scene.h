@@ -45,7 +45,7 @@ struct PotentialScene
   contact::PotentialSettings settings;
   unsigned int moving_body;
 
-  explicit PotentialScene(const Case &c, unsigned int n_faces = 2, double bend = .03) : moving_body(0)
+  explicit PotentialScene(const Case &c, unsigned int n_faces = 2, double bend = .02) : moving_body(0)
   {
     BoxSurfaceBuilder<dim> builder;
     BoxBody<dim> lower;
@@ -69,6 +69,8 @@ struct PotentialScene
     move(SpatialTensor<dim>::Identity(), SpatialVector<dim>::Zero(), c.target);
     settings.integration = c.integration;
     settings.damping_ratio = .3;
+    if (c.integration == contact::Integration::face_segments)
+      settings.n_quadrature_points = 2; // there are many segments
   }
 
   /// Turns and shifts all there is.

@@ -129,36 +129,29 @@ template <int dim>
 void PairList<dim>::add_body_pairs(unsigned int neighbours, const Positions &positions)
 {
   const FacetNeighbours &found = neighbour_list.neighbours()[neighbours];
-  const Facet<dim> &facet = surface.facets[found.facet];
-  const auto add_all = [&](const FacetPoints &points)
-  {
-    for (const FacetPoint &point : points)
-      add_body_pair(neighbours, point, positions);
-  };
   if (settings_.integration == Integration::face_segments)
-    add_all(make_segment_facet_points(found, positions));
+    for (const unsigned int candidate : found.candidates)
+      add_segment_pairs(neighbours, candidate, positions);
   else
-    add_all(gauss_points[facet.degree - 1]);
+    for (const FacetPoint &point : gauss_points[surface.facets[found.facet].degree - 1])
+      add_body_pair(neighbours, point, std::nullopt, positions);
 }
 
 template <int dim>
-typename PairList<dim>::FacetPoints
-PairList<dim>::make_segment_facet_points(const FacetNeighbours &neighbours, const Positions &positions) const
+void PairList<dim>::add_segment_pairs(unsigned int neighbours, unsigned int candidate,
+                                      const Positions &positions)
 {
-  const Facet<dim> &contactor = surface.facets[neighbours.facet];
-  const FacetNodes<dim> contactor_nodes = gather_nodes(contactor, positions);
-  FacetPoints points;
-  for (const unsigned int candidate : neighbours.candidates)
-    for (const auto &point :
-         make_segment_points(contactor_nodes, gather_nodes(surface.facets[candidate], positions),
-                             settings_.n_quadrature_points))
-      points.push_back({point, evaluate_facet_shape<dim>(contactor.degree, point.xi).value});
-  return points;
+  const Facet<dim> &contactor = surface.facets[neighbour_list.neighbours()[neighbours].facet];
+  for (const auto &point :
+       make_segment_points(gather_nodes(contactor, positions),
+                           gather_nodes(surface.facets[candidate], positions), settings_.n_quadrature_points))
+    add_body_pair(neighbours, {point, evaluate_facet_shape<dim>(contactor.degree, point.xi).value}, candidate,
+                  positions);
 }
 
 template <int dim>
 void PairList<dim>::add_body_pair(unsigned int neighbours, const FacetPoint &point,
-                                  const Positions &positions)
+                                  std::optional<unsigned int> facing, const Positions &positions)
 {
   ContactPair<dim> pair;
   pair.facet = neighbour_list.neighbours()[neighbours].facet;
@@ -170,6 +163,16 @@ void PairList<dim>::add_body_pair(unsigned int neighbours, const FacetPoint &poi
   const SurfaceFoot<dim> foot = find_body_foot(pair, positions, x, reach_[pair.facet] + motion);
   if (foot.depth < -2. * motion) // too far outside (or −∞) to touch before the next renewal
     return;
+  if (facing && foot.facet != *facing)
+  {
+    // A facet that faces the contactor from the far side of its own body must not make a second point here.
+    // It is told by its distance; near a rim, where the foot may be on the side, the facet above is still
+    // meant.
+    const double distance = find_closest_point(gather_nodes(surface.facets[*facing], positions), x).distance;
+    const double far = std::max(2. * foot.closest.distance, .5 * reach_[pair.facet]);
+    if (distance > std::min(far, reach_[pair.facet]))
+      return;
+  }
   pair.distance_when_made = foot.closest.distance;
   set_coefficients(pair, point, &surface.facets[foot.facet]);
   body_pairs_.push_back(pair);

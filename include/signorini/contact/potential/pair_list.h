@@ -8,6 +8,7 @@
 #include "signorini/scene/obstacle.h"
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace signorini::contact
@@ -68,8 +69,11 @@ private:
   bool is_excluded_obstacle(unsigned int body, unsigned int obstacle) const;
 
   void add_body_pairs(unsigned int neighbours, const Positions &positions);
-  FacetPoints make_segment_facet_points(const FacetNeighbours &neighbours, const Positions &positions) const;
-  void add_body_pair(unsigned int neighbours, const FacetPoint &point, const Positions &positions);
+  void add_segment_pairs(unsigned int neighbours, unsigned int candidate, const Positions &positions);
+
+  /// `facing`: the target facet that a segment's point was made for.
+  void add_body_pair(unsigned int neighbours, const FacetPoint &point, std::optional<unsigned int> facing,
+                     const Positions &positions);
   void add_obstacle_pairs(unsigned int obstacle, const Positions &positions);
 
   /// Area, stiffness and damping; `target` is null for an obstacle.
