@@ -161,41 +161,82 @@ double bound_value(const SquarePolynomial<double, n_directions, degree> &polynom
   return low;
 }
 
+/// The same for a polynomial known to be convex there: its tangent plane at the middle bounds it.
+template <int n_directions, int degree>
+double bound_tangent_plane(const SquarePolynomial<double, n_directions, degree> &polynomial)
+{
+  const auto &c = polynomial.coefficient;
+  return c[0] - std::abs(c[1]) -
+         (n_directions == 2 ? std::abs(c[(degree + 1) % polynomial.n_coefficients]) : 0.);
+}
+
 constexpr double careful = 1e6; ///< a contraction no polynomial is expected to exceed
 
-/// The best place so far, and ½|r|² there.
-template <int dim>
-struct Minimum
+/// Looks for the lowest of several minima of the distance to one facet.
+template <int dim, int degree>
+class GlobalSearch
 {
-  LocalPoint<dim> s = LocalPoint<dim>::Zero();
-  double value = std::numeric_limits<double>::max();
+public:
+  GlobalSearch(const Patch<dim, degree> &facet, const DistancePolynomial<dim, degree> &squared_distance)
+      : patch(facet), polynomial(squared_distance)
+  {
+    descend_from(LocalPoint<dim>::Zero());
+    search_part(polynomial, LocalPoint<dim>::Zero(), 1.);
+  }
+
+  const LocalPoint<dim> &place() const { return best; }
+
+private:
+  const Patch<dim, degree> &patch;
+  const DistancePolynomial<dim, degree> &polynomial;
+  LocalPoint<dim> best; ///< always a minimum over a neighbourhood in the whole square
+  double best_value = std::numeric_limits<double>::max();
+
+  double evaluate(const LocalPoint<dim> &s) const
+  {
+    return 0.5 * evaluate_patch<dim, degree>(patch, s).squaredNorm();
+  }
+
+  void descend_from(const LocalPoint<dim> &start)
+  {
+    best = descend<dim, 2 * degree>(polynomial, start, careful);
+    best_value = evaluate(best);
+  }
+
+  void search_part(const DistancePolynomial<dim, degree> &part, const LocalPoint<dim> &middle,
+                   double half_width);
 };
 
-/// Lowers `best` to the minimum over the part of the square with the given middle and half width: descends
-/// from its middle, and halves it until the function is convex there or surely not low enough.
+/// Halves the part of the square with the given middle and half width until the function is convex there,
+/// then descends, unless the part is surely not low enough.
 template <int dim, int degree>
-void search_part(const Patch<dim, degree> &patch, const DistancePolynomial<dim, degree> &part,
-                 const LocalPoint<dim> &middle, const double half_width, Minimum<dim> &best)
+void GlobalSearch<dim, degree>::search_part(const DistancePolynomial<dim, degree> &part,
+                                            const LocalPoint<dim> &middle, const double half_width)
 {
   constexpr double smallest_half_width = 1. / 16.;
-  if (bound_value(part) >= best.value)
+  if (bound_value(part) >= best_value)
     return;
   const double contraction = bound_contraction<dim, 2 * degree>(part);
-  const LocalPoint<dim> found =
-      middle +
-      half_width * descend<dim, 2 * degree>(part, LocalPoint<dim>::Zero(), std::max(contraction, careful));
-  const double value = 0.5 * evaluate_patch<dim, degree>(patch, found).squaredNorm();
-  if (value < best.value)
-    best = {found, value};
-  if (contraction >= 0. || half_width <= smallest_half_width)
+  const bool is_convex = contraction >= 0.;
+  // A convex function lies above its tangent plane, and has no second minimum beside one that is known.
+  if (is_convex && (bound_tangent_plane(part) >= best_value ||
+                    (best - middle).template lpNorm<Eigen::Infinity>() <= half_width))
     return;
+  if (is_convex || half_width <= smallest_half_width)
+  {
+    const LocalPoint<dim> found =
+        middle + half_width * descend<dim, 2 * degree>(part, LocalPoint<dim>::Zero(),
+                                                       is_convex ? contraction : careful);
+    if (evaluate(found) < best_value)
+      descend_from(found);
+    return;
+  }
   for (int child = 0; child < (1 << (dim - 1)); ++child)
   {
     LocalPoint<dim> offset;
     for (int a = 0; a < dim - 1; ++a)
       offset[a] = ((child >> a) & 1) ? 0.5 : -0.5;
-    search_part<dim, degree>(patch, make_part<dim, 2 * degree>(part, offset), middle + half_width * offset,
-                             0.5 * half_width, best);
+    search_part(make_part<dim, 2 * degree>(part, offset), middle + half_width * offset, 0.5 * half_width);
   }
 }
 
@@ -209,11 +250,7 @@ ClosestPoint<dim> find_on_facet(const FacetNodes<dim> &nodes, const SpatialVecto
   if (contraction >= 0.)
     s = descend<dim, 2 * degree>(polynomial, s, contraction);
   else
-  {
-    Minimum<dim> best;
-    search_part<dim, degree>(patch, polynomial, s, 1., best);
-    s = descend<dim, 2 * degree>(polynomial, best.s, careful);
-  }
+    s = GlobalSearch<dim, degree>(patch, polynomial).place();
 
   const SpatialVector<dim> r = evaluate_patch<dim, degree>(patch, s);
   ClosestPoint<dim> closest;
