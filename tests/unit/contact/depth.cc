@@ -272,6 +272,10 @@ TEST(Depth, IsMinusInfinityWhereAllFacetsAreBeyondTheCutoff)
   EXPECT_EQ(surface.find({1.3, 1.3, 1.3}, 0.4).depth, -infinity); // inside the cutoff's box, outside its ball
   EXPECT_NEAR(surface.find({0.5, 0.5, 1.5}, 0.6).depth, -0.5, 1e-15);
   EXPECT_NEAR(surface.find({0.5, 0.5, 0.9}, 0.2).depth, 0.1, 1e-15);
+  Surface<3> slope; // its box holds the point, its plane is farther than the cutoff
+  slope.add_patch({0., 0., 0.}, {SpatialVector<3>(1., 0., 1.), SpatialVector<3>(0., 1., 0.)});
+  EXPECT_EQ(slope.find({0.9, 0.5, 0.1}, 0.5).depth, -infinity);
+  EXPECT_NEAR(slope.find({0.9, 0.5, 0.1}, 0.6).depth, 0.8 * std::sqrt(0.5), 1e-15);
   EXPECT_EQ(find_foot<3>(surface.facets, surface.positions, nullptr, 0, {0.5, 0.5, 0.5}, 1.).depth,
             -infinity);
 }

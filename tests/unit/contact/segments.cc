@@ -255,6 +255,19 @@ TEST(SegmentPoints, AreNoneWithoutOverlapOrFacingNormals)
   expect_nothing_without_overlap<3>();
 }
 
+TEST(SegmentPoints, AreSymmetricAboutTheCentroid)
+{
+  const FacetNodes<3> facet = testing::make_unit_facet<3>(1);
+  double odd = 0., even = 0.; // of a degree the rule does not integrate exactly
+  for (const auto &point : make_segment_points(facet, turn_round(facet), 1))
+  {
+    odd += point.weight * std::pow(point.xi[0] - 0.5, 3);
+    even += point.weight * std::pow(point.xi[0] - 0.5, 2);
+  }
+  EXPECT_NEAR(odd, 0., 1e-16);
+  EXPECT_GT(std::abs(even - 1. / 12.), 1e-3);
+}
+
 TEST(SegmentPoints, FollowTheMidSideNodes)
 {
   FacetNodes<3> target = testing::make_unit_facet<3>(2);
