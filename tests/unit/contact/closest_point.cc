@@ -74,7 +74,7 @@ template <int dim>
 void compare_with_sampling(const double warp, const double reach, const unsigned int n_cases)
 {
   Dice dice(17);
-  for (unsigned int n = 0; n < n_cases; ++n)
+  for (unsigned int n = 0; n < testing::count_cases(n_cases); ++n)
   {
     const FacetNodes<dim> nodes = testing::make_warped_facet<dim>(1 + n % 2, warp, dice);
     const SpatialVector<dim> x = evaluate_facet_frame<dim>(nodes, dice.point<dim - 1>(-0.3, 1.3)).position +
@@ -169,7 +169,7 @@ TEST(ClosestPoint, ToleratesDegenerateFacets)
 TEST(ClosestPoint, DoesNotDependOnScale)
 {
   Dice dice(5);
-  for (unsigned int n = 0; n < 300; ++n)
+  for (unsigned int n = 0; n < testing::count_cases(300); ++n)
   {
     FacetNodes<3> nodes = testing::make_warped_facet<3>(1 + n % 2, 0.1, dice);
     const SpatialVector<3> x = dice.point<3>(-2., 2.);
@@ -186,7 +186,7 @@ TEST(ClosestPoint, DoesNotDependOnScale)
 TEST(ClosestPoint, BeatsSamplingOnLongFacets)
 {
   Dice dice(5);
-  for (unsigned int n = 0; n < 300; ++n)
+  for (unsigned int n = 0; n < testing::count_cases(300); ++n)
   {
     FacetNodes<3> nodes = testing::make_warped_facet<3>(1 + n % 2, 0.05, dice);
     const SpatialVector<3> stretch(100., 1., 1.);

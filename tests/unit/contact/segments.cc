@@ -146,7 +146,7 @@ void compare_tilings(const unsigned int n_contactor, const unsigned int n_target
 TEST(SegmentPoints, TileAParallelogramExactlyWhateverItsPlacement)
 {
   Dice dice(23);
-  for (unsigned int turn = 0; turn < 8; ++turn)
+  for (unsigned int turn = 0; turn < testing::count_cases(8); ++turn)
   {
     compare_tilings<2>(3, 4, 1, 2, dice);
     compare_tilings<2>(3, 5, 2, 2, dice);
@@ -162,7 +162,7 @@ TEST(SegmentPoints, CoverAFacetUnderATurnedGrid)
 {
   Dice dice(29);
   const FacetNodes<3> contactor = testing::make_unit_facet<3>(1);
-  for (unsigned int turn = 0; turn < 50; ++turn)
+  for (unsigned int turn = 0; turn < testing::count_cases(50); ++turn)
   {
     const double angle = dice.number(0., 6.3);
     const SpatialTensor<3> rotation = Eigen::AngleAxisd(angle, SpatialVector<3>::UnitZ()).toRotationMatrix();
@@ -184,7 +184,7 @@ TEST(SegmentPoints, CoverAFacetUnderATurnedGrid)
 TEST(SegmentPoints, CoverAnyQuadrilateral)
 {
   Dice dice(31);
-  for (unsigned int n = 0; n < 200; ++n)
+  for (unsigned int n = 0; n < testing::count_cases(200); ++n)
   {
     const unsigned int degree = 1 + n % 2;
     FacetNodes<3> contactor = testing::make_unit_facet<3>(degree);
@@ -253,6 +253,19 @@ TEST(SegmentPoints, AreNoneWithoutOverlapOrFacingNormals)
 {
   expect_nothing_without_overlap<2>();
   expect_nothing_without_overlap<3>();
+}
+
+TEST(SegmentPoints, AreSymmetricAboutTheCentroid)
+{
+  const FacetNodes<3> facet = testing::make_unit_facet<3>(1);
+  double odd = 0., even = 0.; // of a degree the rule does not integrate exactly
+  for (const auto &point : make_segment_points(facet, turn_round(facet), 1))
+  {
+    odd += point.weight * std::pow(point.xi[0] - 0.5, 3);
+    even += point.weight * std::pow(point.xi[0] - 0.5, 2);
+  }
+  EXPECT_NEAR(odd, 0., 1e-16);
+  EXPECT_GT(std::abs(even - 1. / 12.), 1e-3);
 }
 
 TEST(SegmentPoints, FollowTheMidSideNodes)
