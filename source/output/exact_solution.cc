@@ -174,14 +174,10 @@ template <int dim>
 std::vector<ErrorRow> bounce(const Results<dim> &results)
 {
   const HistoryRow &start = results.history.front(), &end = results.history.back();
-  const MaterialParameters &material = results.parameters->bodies.at(0).material;
-  // The dashpot is scaled with the mass of a surface layer, ρh/2, but moves the whole block.
-  double thickness = results.sample_thicknesses.at(0), touched_area = 0.;
-  for (const auto &sample : results.samples)
-    touched_area += sample.area;
-  const double layer_mass = 0.5 * material.density * thickness * touched_area;
-  const double ratio = results.parameters->contact->damping->damping_ratio *
-                       std::sqrt(layer_mass / results.body_masses.at(0));
+  // The dashpot is scaled with the mass of half a layer of elements but moves all of the block's layers.
+  const MeshParameters &mesh = results.parameters->bodies.at(0).mesh;
+  const double n_layers = mesh.cells[dim - 1] * std::pow(2., mesh.refinements);
+  const double ratio = results.parameters->contact->damping->damping_ratio / std::sqrt(2. * n_layers);
   return {compare("restitution", -end.bodies.at(0).velocity[dim - 1] / start.bodies.at(0).velocity[dim - 1],
                   restitution(ratio))};
 }

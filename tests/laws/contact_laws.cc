@@ -2,7 +2,10 @@
 #include "potential_scene.h"
 
 #include <Eigen/Eigenvalues>
+<<<<<<< HEAD
 #include <boost/math/quadrature/gauss.hpp>
+=======
+>>>>>>> potential
 #include <gtest/gtest.h>
 
 #include <sstream>
@@ -210,6 +213,7 @@ TEST_P(ContactLaws, NothingActsAtADistance)
       });
 }
 
+<<<<<<< HEAD
 /// Integral by Gauss points on intervals halved until two halves agree with their whole: forces have kinks
 /// and, on the ridges of depth, jumps.
 template <typename Function>
@@ -220,6 +224,26 @@ double integrate(const Function &f, double begin, double end, double tolerance)
   const double whole = Rule::integrate(f, begin, end);
   const double halves = Rule::integrate(f, begin, middle) + Rule::integrate(f, middle, end);
   if (std::abs(whole - halves) < tolerance || end - begin < 1e-11)
+=======
+/// Lobatto's rule of order 8. It has points at both ends, so that a jump inside cannot go unseen.
+template <typename Function>
+double apply_lobatto_rule(const Function &f, double begin, double end)
+{
+  const double middle = .5 * (begin + end), half = .5 * (end - begin), inner = half * std::sqrt(3. / 7.);
+  return half * ((f(begin) + f(end)) / 10. + (f(middle - inner) + f(middle + inner)) * 49. / 90. +
+                 f(middle) * 32. / 45.);
+}
+
+/// Halves the interval until two halves agree with their whole: forces have kinks and, on the ridges of
+/// depth, jumps.
+template <typename Function>
+double integrate(const Function &f, double begin, double end, double tolerance)
+{
+  const double middle = .5 * (begin + end);
+  const double whole = apply_lobatto_rule(f, begin, end);
+  const double halves = apply_lobatto_rule(f, begin, middle) + apply_lobatto_rule(f, middle, end);
+  if (std::abs(whole - halves) < tolerance || end - begin < 1e-13)
+>>>>>>> potential
     return halves;
   return integrate(f, begin, middle, tolerance) + integrate(f, middle, end, tolerance);
 }
@@ -227,11 +251,21 @@ double integrate(const Function &f, double begin, double end, double tolerance)
 /// A body led around a loop, into contact and out of it again, gets back all work it has done.
 TEST_P(ContactLaws, ClosedLoopDoesNoWork)
 {
+<<<<<<< HEAD
+=======
+  const Case &c = GetParam();
+  if (c.dim == 3 && c.degree == 2 && c.target == Target::body && c.integration == Integration::face_segments)
+    GTEST_SKIP() << "passes, but takes a minute: its thousands of points cross thousands of kinks";
+>>>>>>> potential
   on_scene(
       [](auto scene, auto dimension)
       {
         constexpr int dim = decltype(dimension)::value;
+<<<<<<< HEAD
         scene.settings.n_quadrature_points = 2;
+=======
+        scene.settings.n_quadrature_points = scene.settings.integration == Integration::face_segments ? 1 : 2;
+>>>>>>> potential
         auto potential = scene.make_potential();
         SpatialVector<dim> sideways = .07 * SpatialVector<dim>::Unit(0);
         SpatialVector<dim> upwards = .05 * SpatialVector<dim>::Unit(dim - 1);
@@ -250,7 +284,11 @@ TEST_P(ContactLaws, ClosedLoopDoesNoWork)
                                                                        std::cos(angle) * upwards);
         };
         double work = 0.;
+<<<<<<< HEAD
         constexpr unsigned int n_parts = 200; // so that no short touch goes unseen
+=======
+        constexpr unsigned int n_parts = 64; // so that no short touch goes unseen
+>>>>>>> potential
         for (unsigned int part = 0; part < n_parts; ++part)
           work += integrate(power, 2. * pi * part / n_parts, 2. * pi * (part + 1) / n_parts, 1e-12 * peak);
         EXPECT_GT(peak, 0.);

@@ -310,6 +310,11 @@ std::vector<ContactSample<dim>> ContactPotential<dim>::samples() const
   for_each_pair_deeper_than(-pairs.skin(),
                             [&](const NearPair &near)
                             {
+                              const FacetNodes<dim> contactor =
+                                gather_nodes(surface.facets[near.pair.facet], evaluated_positions);
+                              const auto frame = evaluate_facet_frame(contactor, near.pair.xi);
+                              if (frame.area_normal.dot(near.foot.normal) >= 0.)
+                                return;
                               const double depth = near.foot.depth;
                               all.push_back({near.pair.facet, near.pair.xi, near.foot.position, depth,
                                              near.pair.stiffness * std::max(depth, 0.), near.pair.area});

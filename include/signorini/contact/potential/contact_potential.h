@@ -81,7 +81,7 @@ public:
 
   ContactMeasures<dim> measure() const;
 
-  /// All points in contact or less than a skin away.
+  /// All points in contact or less than a skin away whose facet faces the other surface.
   std::vector<ContactSample<dim>> samples() const;
 
 private:
