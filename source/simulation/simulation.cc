@@ -84,7 +84,7 @@ Simulation<dim>::Simulation(const Parameters &the_parameters, const std::string 
     is_body_held = find_held_bodies(scene, *supports);
     check_held(parameters, scene, is_body_held);
   }
-  results.n_dofs = discretization->dof_handler.n_dofs();
+  results.n_dofs = discretization->n_dofs();
   results.n_cells = discretization->mesh->n_global_active_cells();
   check_initial_overlap();
 }
@@ -384,28 +384,32 @@ void Simulation<dim>::run_explicit(const ExplicitParameters &solver_parameters)
   solver.start(state);
   const double end = solver_parameters.end_time;
   const unsigned int n_rows = std::max(1u, parameters.output.n_statistics);
-  const unsigned int rows_a_field = std::max(1u, n_rows / std::max(1u, parameters.output.n_fields));
+  const unsigned int n_fields = std::max(1u, parameters.output.n_fields);
   record_explicit(solver, 0., end);
   write_fields();
-  for (unsigned int row = 1; row <= n_rows; ++row)
+  // Rows and fields are written by the first step that reaches their time: outputs do not shape the steps.
+  unsigned int row = 1, field = 1;
+  while (state.time < end)
   {
-    const double next = end * row / n_rows;
-    double time_step = 0.;
-    while (next - state.time > 1e-9 * end / n_rows)
+    const double remaining = end - state.time, stable = solver.stable_step();
+    const double time_step = remaining > 2. * stable ? stable : remaining / std::ceil(remaining / stable - 1e-9);
+    solver.step(time_step, state);
+    if (end - state.time < 1e-9 * time_step)
+      state.time = end;
+    ++results.n_steps;
+    update_contact_measures();
+    check_penetration();
+    if (state.time >= end * row / n_rows)
     {
-      const double remaining = next - state.time;
-      time_step = remaining / std::ceil(remaining / solver.stable_step() - 1e-9);
-      solver.step(time_step, state);
-      ++results.n_steps;
-      update_contact_measures();
-      check_penetration();
+      solver.take_stock(state);
+      record_explicit(solver, time_step, end);
+      row = 1 + static_cast<unsigned int>(std::floor(state.time / end * n_rows));
     }
-    solver.take_stock(state);
-    record_explicit(solver, time_step, end);
-    if (row % rows_a_field == 0 || row == n_rows)
+    if (state.time >= end * field / n_fields)
     {
       write_fields();
       solver.update_bulk_bound();
+      field = 1 + static_cast<unsigned int>(std::floor(state.time / end * n_fields));
     }
   }
 }

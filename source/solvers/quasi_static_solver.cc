@@ -171,6 +171,8 @@ bool QuasiStaticSolver<dim>::make_constraints(double old_time, double time)
       constraints.set_inhomogeneity(entry.dof, increment);
     }
   }
+  for (const dealii::types::global_dof_index dof : discretization->unused_dofs)
+    constraints.add_line(dof);
   constraints.close();
   system.constraints = &constraints;
   return do_supports_move;
@@ -226,6 +228,8 @@ void QuasiStaticSolver<dim>::assemble(DrivenBy cause)
       system.right_hand_side[dof] += residual.local_element(i);
     system.matrix.add(dof, dof, constraints.is_constrained(dof) ? 0. : regularization.local_element(i));
   }
+  for (const dealii::types::global_dof_index dof : discretization->unused_dofs)
+    system.matrix.add(dof, dof, 1.);
   system.matrix.compress(dealii::VectorOperation::add);
   system.right_hand_side.compress(dealii::VectorOperation::add);
 }
