@@ -30,13 +30,13 @@ show_progress()
   if [ -t 2 ]; then printf '\r\033[K' >&2; fi
 }
 
-# fail_with_log MESSAGE LOG: the end of the log is nearly always what is looked for.
+# fail_with_log MESSAGE LOG: the end of the log is nearly always what is looked for. Exit code 4 is none of the program's.
 fail_with_log()
 {
   echo >&2
   tail -n 40 "$2" >&2
   echo "$1 The whole log: $2" >&2
-  exit 1
+  exit 4
 }
 
 # build PRESET TARGET...: configures once, then lets ninja decide what is left to do.

@@ -286,9 +286,11 @@ void QuasiStaticSolver<dim>::move_supports(double time, State &state)
 }
 
 template <int dim>
-bool QuasiStaticSolver<dim>::has_converged(const State &state, double error)
+bool QuasiStaticSolver<dim>::has_converged(const State &state, double error, double error_before)
 {
-  const double tolerance = std::max(parameters.tolerance, compute_round_off(state));
+  double tolerance = parameters.tolerance;
+  if (error > 0.5 * error_before)
+    tolerance = std::max(tolerance, compute_round_off(state));
   if (error > tolerance)
     return false;
   // Points of integration follow the bodies: what was found with the old ones must be an equilibrium with the new.
@@ -310,11 +312,12 @@ bool QuasiStaticSolver<dim>::iterate(double time, State &state,
     move_supports(time, state);
     for (;; ++progress.iteration)
     {
+      const double residual_before = progress.residual;
       progress.residual = relative_residual(state);
       report(progress);
       if (!std::isfinite(progress.residual))
         throw NumericalError("an element was turned inside out");
-      if (has_converged(state, progress.residual))
+      if (has_converged(state, progress.residual, residual_before))
         return true;
       if (progress.iteration == parameters.max_iterations)
         throw NumericalError("Newton's method only reached a relative residual of " +

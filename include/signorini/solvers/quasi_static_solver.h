@@ -65,7 +65,8 @@ private:
   void assemble(DrivenBy cause);
   unsigned int compute_increment(DrivenBy cause, Vector &increment);
   void move_supports(double time, State &state);
-  bool has_converged(const State &state, double error);
+  /// Within the tolerance; or, where the residual stopped falling, within what round-off lets it be evaluated to.
+  bool has_converged(const State &state, double error, double error_before);
   double limit_of_step(const Vector &increment) const;
   double search_along(const Vector &increment, State &state);
   unsigned int n_searches() const;

@@ -88,11 +88,19 @@ PairFoot<dim> ContactPotential<dim>::evaluate_body_pair(const ContactPair<dim> &
   result.closest = foot.closest;
   result.gap = result.position - foot.closest.position;
   result.shape = evaluate_facet_shape<dim>(target.degree, foot.closest.xi).value;
-  if (foot.closest.distance > 1e-9 * target.layer_thickness)
+  const bool is_inside_facet =
+      std::all_of(foot.closest.free.begin(), foot.closest.free.end(), [](bool is_free) { return is_free; });
+  if (!is_inside_facet && foot.closest.distance > 1e-9 * target.layer_thickness)
+  {
     result.normal = result.gap / -foot.depth;
-  else // too close for the gap to have a direction
-    result.normal = evaluate_facet_frame(gather_nodes(target, evaluated_positions), foot.closest.xi)
-                        .area_normal.normalized();
+    return result;
+  }
+  // Inside a facet, or too close for the gap to have a direction, the facet's normal is the direction: it has none
+  // of the round-off that the gap takes from coordinates many orders larger than itself.
+  result.normal = evaluate_facet_frame(gather_nodes(target, evaluated_positions), foot.closest.xi)
+                      .area_normal.normalized();
+  result.depth = -result.gap.dot(result.normal);
+  result.gap = -result.depth * result.normal;
   return result;
 }
 
