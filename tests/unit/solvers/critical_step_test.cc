@@ -65,15 +65,18 @@ TYPED_TEST(CriticalStep, ContactBoundIsSafeAndNotWasteful)
     contact->update(built.state);
     const Vector mass = make_lumped_mass(built.scene.materials, built.discretization);
     const double of_contact = compute_contact_bound<dim>({contact.get()}, mass, built.discretization).frequency_squared;
-    EXPECT_GE(of_contact, (1. - 1e-9) * largest_frequency_squared(built, {contact.get()}));
-    EXPECT_LE(of_contact, 4. * largest_frequency_squared(built, {contact.get()}));
+    // It counts points that are near and not yet in contact, in all directions at once.
+    const double allowed = TypeParam::degree == 1 ? 7. : 11.;
+    const double of_contact_alone = largest_frequency_squared(built, {contact.get()});
+    EXPECT_GE(of_contact, (1. - 1e-9) * of_contact_alone);
+    EXPECT_LE(of_contact, allowed * of_contact_alone);
 
     const double exact = largest_frequency_squared(built, {built.forces.elasticity.get(), contact.get()});
     built.forces.elasticity->update(built.state);
     const double bound = of_contact + compute_bulk_frequency_squared(*built.forces.elasticity, built.scene.materials,
                                                                      built.discretization);
     EXPECT_GE(bound, (1. - 1e-9) * exact);
-    EXPECT_LE(bound, 4. * exact);
+    EXPECT_LE(bound, allowed * exact);
   }
 }
 
