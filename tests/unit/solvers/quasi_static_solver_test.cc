@@ -213,7 +213,7 @@ TEST(Locking, NearlyIncompressibleCantileverBendsAsItShould)
   // Timoshenko's beam in plane strain: P L³/(3 E' I) + P L/(5/6 G A).
   const double exact = 1000. / (3. * E / (1. - nu * nu) / 12.) + 10. / (5. / 6. * E / (2. * (1. + nu)));
   const double fine = solve_cantilever(2, 8, nu);
-  EXPECT_NEAR(fine, exact, .02 * exact);
+  EXPECT_NEAR(fine, exact, .03 * exact); // the clamp also stiffens
   EXPECT_NEAR(solve_cantilever(1, 8, nu), fine, .03 * fine);
   EXPECT_NEAR(solve_cantilever(1, 16, nu), fine, .01 * fine);
 }
