@@ -9,6 +9,9 @@
 #include <deal.II/fe/fe_q.h>
 #include <deal.II/fe/fe_values.h>
 
+#include <algorithm>
+#include <numeric>
+
 namespace signorini
 {
 template <int dim>
@@ -20,6 +23,7 @@ Discretization<dim>::Discretization(const Parameters &parameters, const MPI_Comm
   , mpi_communicator(communicator)
 {
   number_dofs();
+  close_mapping();
   fill_cell_table();
   collect_owned_nodes();
 }
@@ -49,6 +53,28 @@ void Discretization<dim>::number_dofs()
       hanging.masters.emplace_back(partitioner->global_to_local(entry.first), entry.second);
     hanging_dofs.push_back(std::move(hanging));
   }
+}
+
+template <int dim>
+void Discretization<dim>::close_mapping()
+{
+  // The mesh puts every node of a curved boundary onto the curve. A hanging one has to stay between its masters
+  // instead, as its displacement does: else the surface gapes and turning a body would strain it.
+  const dealii::MappingQ<dim> on_the_curve(element.degree);
+  std::map<dealii::types::global_dof_index, dealii::Point<dim>> points;
+  dealii::DoFTools::map_dofs_to_support_points(on_the_curve, dof_handler, points);
+  Vector positions = make_vector();
+  std::vector<dealii::types::global_dof_index> cell_dofs(element.n_dofs_per_cell());
+  for (const auto &cell : dof_handler.active_cell_iterators())
+    if (cell->is_locally_owned())
+    {
+      cell->get_dof_indices(cell_dofs);
+      for (unsigned int i = 0; i < cell_dofs.size(); ++i)
+        if (owned_dofs.is_element(cell_dofs[i]))
+          positions(cell_dofs[i]) = points.at(cell_dofs[i])[element.system_to_component_index(i).first];
+    }
+  distribute(positions);
+  mapping.initialize(on_the_curve, dof_handler, positions, false);
 }
 
 template <int dim>
@@ -90,6 +116,12 @@ void Discretization<dim>::fill_cell_table()
     }
     for (unsigned int q = 0; q < cells.n_points; ++q)
       cells.weights.push_back(values.JxW(q));
+    // In distorted hexahedra the nodal rule misses the volume: scaled, bodies weigh what they should.
+    const double volume = std::accumulate(cells.weights.end() - cells.n_points, cells.weights.end(), 0.);
+    const auto measures = cells.nodal_measures.begin() + first_node;
+    const double nodal_volume = std::accumulate(measures, cells.nodal_measures.end(), 0.);
+    std::transform(measures, cells.nodal_measures.end(), measures,
+                   [&](double measure) { return measure * volume / nodal_volume; });
     cells.bodies.push_back(cell->material_id());
     ++cells.n_cells;
   }

@@ -226,10 +226,11 @@ double exact_pressure(const Results<dim> &results, double radius)
 
 double restitution(double damping_ratio)
 {
-  const double root = std::sqrt(1. - damping_ratio * damping_ratio);
-  // The angle runs through π/2 at ξ = 1/√2, which atan2 follows.
-  const double angle = pi - std::atan2(2. * damping_ratio * root, 1. - 2. * damping_ratio * damping_ratio);
-  return std::exp(-damping_ratio / root * angle);
+  // Doubling the angle turns the usual π − atan(2ξ√(1−ξ²)/(1−2ξ²)) into 2 acos ξ, which goes on beyond ξ = 1.
+  const double xi = damping_ratio;
+  if (xi < 1.)
+    return std::exp(-2. * xi * std::acos(xi) / std::sqrt(1. - xi * xi));
+  return xi > 1. ? std::exp(-2. * xi * std::acosh(xi) / std::sqrt(xi * xi - 1.)) : std::exp(-2.);
 }
 
 template std::vector<ErrorRow> compute_errors<2>(const Results<2> &);

@@ -16,6 +16,7 @@ InternalForce<dim>::InternalForce(const std::vector<MaterialParameters> &materia
     const double E = material.youngs_modulus, nu = material.poissons_ratio;
     const double shear_modulus = E / (2. * (1. + nu)), bulk_modulus = E / (3. * (1. - 2. * nu));
     const unsigned int degree = discretization->element.degree;
+    moduli.push_back(bulk_modulus + 4. / 3. * shear_modulus);
     if (material.model == MaterialParameters::Model::linear_elastic)
       kernels.emplace_back(CellKernel<dim, LinearElastic<dim>>({shear_modulus, bulk_modulus}, degree));
     else
@@ -110,6 +111,31 @@ void InternalForce<dim>::add_tangent(TangentSystem &system) const
       for (unsigned int i = 0; i < n; ++i)
         dofs[i] = partitioner.local_to_global(cells.cell_dofs(cell)[i]);
       system.constraints->distribute_local_to_global(matrix, zero, dofs, system.matrix, system.right_hand_side);
+    });
+}
+
+template <int dim>
+void InternalForce<dim>::add_magnitudes(Vector &magnitudes) const
+{
+  const CellTable<dim> &cells = discretization->cells;
+  std::vector<double> slopes(cells.n_nodes);
+  for_each_cell(
+    [&](auto &, unsigned int cell, const CellGeometry &geometry, const double *u)
+    {
+      const unsigned int *dofs = cells.cell_dofs(cell);
+      for (unsigned int q = 0; q < geometry.n_points; ++q)
+      {
+        double strain = 1.; // of F and v the laws subtract 1
+        for (unsigned int a = 0; a < geometry.n_nodes; ++a)
+        {
+          const double *gradient = geometry.gradients + (q * geometry.n_nodes + a) * dim;
+          slopes[a] = Eigen::Map<const SpatialVector<dim>>(gradient).norm();
+          strain += slopes[a] * Eigen::Map<const SpatialVector<dim>>(u + a * dim).norm();
+        }
+        const double stress = moduli[cells.bodies[cell]] * strain;
+        for (unsigned int i = 0; i < cells.n_cell_dofs(); ++i)
+          magnitudes.local_element(dofs[i]) += geometry.weights[q] * stress * slopes[i / dim];
+      }
     });
 }
 

@@ -3,6 +3,8 @@
 
 #include "signorini/physics/mass.h"
 
+#include <algorithm>
+
 namespace signorini
 {
 template <int dim>
@@ -21,6 +23,12 @@ ExplicitSolver<dim>::ExplicitSolver(const Discretization<dim> &the_discretizatio
   for (Vector *vector : {&force, &load_force, &damping_force, &one_damping_force, &external_force, &old_force,
                          &old_load_force, &old_damping_force})
     *vector = discretization->make_vector();
+  std::vector<bool> is_supported(mass.locally_owned_size(), false);
+  for (const unsigned int dof : supports->owned_dofs())
+    is_supported[dof] = true;
+  for (const OwnedNode<dim> &node : discretization->owned_nodes)
+    if (std::any_of(node.dofs.begin(), node.dofs.end(), [&](unsigned int dof) { return is_supported[dof]; }))
+      dofs_of_supported_nodes.insert(dofs_of_supported_nodes.end(), node.dofs.begin(), node.dofs.end());
   has_external_forces = !forces->loads.empty();
   for (const auto &contact : forces->contacts)
     has_external_forces |= contact->is_external;
@@ -191,6 +199,11 @@ void ExplicitSolver<dim>::book_supports(const State &state, double time_step)
     const double m = mass.local_element(i), v = state.velocity.local_element(i), v_old = old_velocity.local_element(i);
     work += 0.5 * m * (v * v - v_old * v_old) -
             0.5 * (old_force.local_element(i) + force.local_element(i)) * increment.local_element(i);
+  }
+  // A support that moves its node along turns the momentum of the node's free components with it.
+  for (const unsigned int i : dofs_of_supported_nodes)
+  {
+    const double m = mass.local_element(i), v = state.velocity.local_element(i), v_old = old_velocity.local_element(i);
     impulse.local_element(i) = m * v - 0.5 * time_step * force.local_element(i);
     other_impulse.local_element(i) = -m * v_old - 0.5 * time_step * old_force.local_element(i);
   }

@@ -6,6 +6,8 @@
 
 #include <deal.II/dofs/dof_tools.h>
 
+#include <fmt/core.h>
+
 #include <cmath>
 #include <limits>
 
@@ -131,12 +133,18 @@ double QuasiStaticSolver<dim>::compute_round_off(const State &state) const
   Vector stiffness = discretization->make_vector(), damping = discretization->make_vector();
   for (const auto &contact : forces->contacts)
     contact->add_row_sum_bounds(stiffness, damping);
+  Vector magnitudes = discretization->make_vector();
+  forces->elasticity->add_magnitudes(magnitudes);
+  discretization->collect(magnitudes);
   double squared = 0.;
   for (const OwnedNode<dim> &node : discretization->owned_nodes)
     for (unsigned int d = 0; d < dim; ++d)
-      squared += std::pow(stiffness.local_element(node.dofs[d]) *
-                            (node.position[d] + state.displacement.local_element(node.dofs[d])),
+    {
+      const double position = node.position[d] + state.displacement.local_element(node.dofs[d]);
+      squared += std::pow(stiffness.local_element(node.dofs[d]) * std::abs(position) +
+                            magnitudes.local_element(node.dofs[d]),
                           2);
+    }
   squared = dealii::Utilities::MPI::sum(squared, discretization->communicator());
   double largest_scale = 0.;
   for (const double scale : scales)
@@ -324,8 +332,8 @@ bool QuasiStaticSolver<dim>::iterate(double time, State &state,
       if (has_converged(state, progress.residual, residual_before))
         return true;
       if (progress.iteration == parameters.max_iterations)
-        throw NumericalError("Newton's method only reached a relative residual of " +
-                             std::to_string(progress.residual));
+        throw NumericalError(
+          fmt::format("Newton's method only reached a relative residual of {:.3g}", progress.residual));
       progress.linear_iterations = compute_increment(DrivenBy::residual, increment);
       progress.step_length = search_along(increment, state);
       if (progress.step_length == 0.)

@@ -18,7 +18,7 @@ struct CellTable
   std::vector<unsigned int> bodies;    ///< [cell]
   std::vector<double> gradients;       ///< [cell][point][node][direction] of the shape functions [1/m]
   std::vector<double> weights;         ///< [cell][point] quadrature weight × Jacobian [m³; m² in 2-D]
-  std::vector<double> nodal_measures;  ///< [cell][node] ∫N dV by the rule whose points are the nodes [m³; m² in 2-D]
+  std::vector<double> nodal_measures;  ///< [cell][node] ∫N dV by the rule whose points are the nodes, scaled to the cell's volume [m³; m² in 2-D]
 
   unsigned int n_cell_dofs() const { return n_nodes * dim; }
   const unsigned int *cell_dofs(unsigned int cell) const { return &dofs[cell * n_nodes * dim]; }

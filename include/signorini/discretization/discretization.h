@@ -8,7 +8,7 @@
 #include <deal.II/distributed/tria.h>
 #include <deal.II/dofs/dof_handler.h>
 #include <deal.II/fe/fe_system.h>
-#include <deal.II/fe/mapping_q.h>
+#include <deal.II/fe/mapping_q_cache.h>
 #include <deal.II/lac/affine_constraints.h>
 
 #include <array>
@@ -51,7 +51,7 @@ public:
 
   std::unique_ptr<dealii::parallel::distributed::Triangulation<dim>> mesh;
   dealii::FESystem<dim> element;
-  dealii::MappingQ<dim> mapping;
+  dealii::MappingQCache<dim> mapping; ///< hanging nodes between their masters, also on curved boundaries
   dealii::DoFHandler<dim> dof_handler;
 
   dealii::IndexSet owned_dofs;
@@ -72,6 +72,7 @@ public:
 
 private:
   void number_dofs();
+  void close_mapping();
   void fill_cell_table();
   void collect_owned_nodes();
 

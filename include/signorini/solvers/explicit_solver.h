@@ -65,6 +65,7 @@ private:
   Vector old_force, old_load_force, old_damping_force;
   Vector old_displacement, old_velocity, increment;
   std::vector<double> half_velocity_of_supports;
+  std::vector<unsigned int> dofs_of_supported_nodes; ///< local indices, free components included
   VectorAndMoment external, old_external;
   bool has_external_forces = false;
   double bulk_frequency_squared = 0.;
