@@ -197,6 +197,8 @@ void QuasiStaticSolver<dim>::rebuild_matrix()
     dealii::Utilities::MPI::this_mpi_process(discretization->communicator()));
   for (const auto &term : terms)
     term->add_couplings(constraints, pattern);
+  for (const dealii::types::global_dof_index dof : discretization->unused_dofs)
+    pattern.add(dof, dof);
   pattern.compress();
   system.matrix.reinit(pattern);
   system.right_hand_side.reinit(discretization->owned_dofs, discretization->communicator());
