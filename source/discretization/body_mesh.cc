@@ -46,16 +46,16 @@ void make_ball(const MeshParameters &parameters, dealii::Triangulation<dim> &mes
 {
   switch (parameters.part)
   {
-    case MeshParameters::Part::whole:
-      dealii::GridGenerator::hyper_ball(mesh, dealii::Point<dim>(), parameters.radius);
-      break;
-    case MeshParameters::Part::half:
-      dealii::GridGenerator::half_hyper_ball(mesh, dealii::Point<dim>(), parameters.radius);
-      dealii::GridTools::transform(turn_first_axis_to_last<dim>, mesh);
-      break;
-    case MeshParameters::Part::orthant:
-      dealii::GridGenerator::quarter_hyper_ball(mesh, dealii::Point<dim>(), parameters.radius);
-      break;
+  case MeshParameters::Part::whole:
+    dealii::GridGenerator::hyper_ball(mesh, dealii::Point<dim>(), parameters.radius);
+    break;
+  case MeshParameters::Part::half:
+    dealii::GridGenerator::half_hyper_ball(mesh, dealii::Point<dim>(), parameters.radius);
+    dealii::GridTools::transform(turn_first_axis_to_last<dim>, mesh);
+    break;
+  case MeshParameters::Part::orthant:
+    dealii::GridGenerator::quarter_hyper_ball(mesh, dealii::Point<dim>(), parameters.radius);
+    break;
   }
 }
 
@@ -94,15 +94,15 @@ void make_coarse_body_mesh(const MeshParameters &parameters, dealii::Triangulati
 {
   switch (parameters.shape)
   {
-    case MeshParameters::Shape::box:
-      make_box(parameters, mesh);
-      return;
-    case MeshParameters::Shape::ball:
-      make_ball(parameters, mesh);
-      break;
-    case MeshParameters::Shape::cylinder:
-      make_cylinder(parameters, mesh);
-      break;
+  case MeshParameters::Shape::box:
+    make_box(parameters, mesh);
+    return;
+  case MeshParameters::Shape::ball:
+    make_ball(parameters, mesh);
+    break;
+  case MeshParameters::Shape::cylinder:
+    make_cylinder(parameters, mesh);
+    break;
   }
   name_curved_shape(parameters, mesh);
 }
@@ -116,12 +116,12 @@ double distance_to_boundary(const MeshParameters &parameters, const std::string 
   AssertIndexRange(id, names.size());
   switch (parameters.shape)
   {
-    case MeshParameters::Shape::box:
-      return std::abs(own[id / 2] - (id % 2 == 0 ? parameters.lower_corner : parameters.upper_corner)[id / 2]);
-    case MeshParameters::Shape::ball:
-      return id == 0 ? std::abs(own.norm() - parameters.radius) : std::abs(own[boundary[0] - 'x']);
-    case MeshParameters::Shape::cylinder:
-      break;
+  case MeshParameters::Shape::box:
+    return std::abs(own[id / 2] - (id % 2 == 0 ? parameters.lower_corner : parameters.upper_corner)[id / 2]);
+  case MeshParameters::Shape::ball:
+    return id == 0 ? std::abs(own.norm() - parameters.radius) : std::abs(own[boundary[0] - 'x']);
+  case MeshParameters::Shape::cylinder:
+    break;
   }
   if (id == 0)
     return std::abs(std::hypot(own[0], own[1]) - parameters.radius);
@@ -130,6 +130,8 @@ double distance_to_boundary(const MeshParameters &parameters, const std::string 
 
 template void make_coarse_body_mesh<2>(const MeshParameters &, dealii::Triangulation<2> &);
 template void make_coarse_body_mesh<3>(const MeshParameters &, dealii::Triangulation<3> &);
-template double distance_to_boundary<2>(const MeshParameters &, const std::string &, const dealii::Point<2> &);
-template double distance_to_boundary<3>(const MeshParameters &, const std::string &, const dealii::Point<3> &);
+template double distance_to_boundary<2>(const MeshParameters &, const std::string &,
+                                        const dealii::Point<2> &);
+template double distance_to_boundary<3>(const MeshParameters &, const std::string &,
+                                        const dealii::Point<3> &);
 } // namespace signorini

@@ -16,11 +16,9 @@ namespace signorini
 {
 template <int dim>
 Discretization<dim>::Discretization(const Parameters &parameters, const MPI_Comm &communicator)
-  : mesh(make_scene_mesh<dim>(parameters.bodies, communicator))
-  , element(dealii::FE_Q<dim>(parameters.degree), dim)
-  , mapping(parameters.degree)
-  , dof_handler(*mesh)
-  , mpi_communicator(communicator)
+    : mesh(make_scene_mesh<dim>(parameters.bodies, communicator)),
+      element(dealii::FE_Q<dim>(parameters.degree), dim), mapping(parameters.degree), dof_handler(*mesh),
+      mpi_communicator(communicator)
 {
   number_dofs();
   close_mapping();
@@ -44,7 +42,8 @@ void Discretization<dim>::number_dofs()
     for (const auto &entry : line.entries)
       with_masters.add_index(entry.first);
   relevant_dofs = with_masters;
-  partitioner = std::make_shared<dealii::Utilities::MPI::Partitioner>(owned_dofs, relevant_dofs, mpi_communicator);
+  partitioner =
+      std::make_shared<dealii::Utilities::MPI::Partitioner>(owned_dofs, relevant_dofs, mpi_communicator);
 
   for (const auto &line : hanging_constraints.get_lines())
   {
@@ -58,8 +57,8 @@ void Discretization<dim>::number_dofs()
 template <int dim>
 void Discretization<dim>::close_mapping()
 {
-  // The mesh puts every node of a curved boundary onto the curve. A hanging one has to stay between its masters
-  // instead, as its displacement does: else the surface gapes and turning a body would strain it.
+  // The mesh puts every node of a curved boundary onto the curve. A hanging one has to stay between its
+  // masters instead, as its displacement does: else the surface gapes and turning a body would strain it.
   const dealii::MappingQ<dim> on_the_curve(element.degree);
   std::map<dealii::types::global_dof_index, dealii::Point<dim>> points;
   dealii::DoFTools::map_dofs_to_support_points(on_the_curve, dof_handler, points);
@@ -82,7 +81,8 @@ void Discretization<dim>::fill_cell_table()
 {
   const dealii::QGauss<dim> quadrature(element.degree + 1);
   const dealii::QGaussLobatto<dim> nodal_quadrature(element.degree + 1);
-  dealii::FEValues<dim> values(mapping, element, quadrature, dealii::update_gradients | dealii::update_JxW_values);
+  dealii::FEValues<dim> values(mapping, element, quadrature,
+                               dealii::update_gradients | dealii::update_JxW_values);
   dealii::FEValues<dim> nodal_values(mapping, element, nodal_quadrature,
                                      dealii::update_values | dealii::update_JxW_values);
   const unsigned int n_dofs = element.n_dofs_per_cell();
@@ -157,7 +157,8 @@ template <int dim>
 dealii::types::global_dof_index Discretization<dim>::n_dofs() const
 {
   return dof_handler.n_dofs() -
-         dealii::Utilities::MPI::sum(static_cast<dealii::types::global_dof_index>(unused_dofs.size()), mpi_communicator);
+         dealii::Utilities::MPI::sum(static_cast<dealii::types::global_dof_index>(unused_dofs.size()),
+                                     mpi_communicator);
 }
 
 template <int dim>

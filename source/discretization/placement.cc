@@ -8,7 +8,8 @@ namespace signorini
 {
 namespace
 {
-dealii::Tensor<2, 2> make_rotation(double angle, const dealii::Tensor<1, 3> &, const std::integral_constant<int, 2> &)
+dealii::Tensor<2, 2> make_rotation(double angle, const dealii::Tensor<1, 3> &,
+                                   const std::integral_constant<int, 2> &)
 {
   return dealii::Physics::Transformations::Rotations::rotation_matrix_2d(angle);
 }
@@ -33,11 +34,10 @@ dealii::Tensor<2, 3> make_rotation(double angle, const dealii::Tensor<1, 3> &axi
 } // namespace
 
 template <int dim>
-Placement<dim>::Placement(const PlacementParameters &parameters)
-  : scale(parameters.scale)
+Placement<dim>::Placement(const PlacementParameters &parameters) : scale(parameters.scale)
 {
-  const dealii::Tensor<1, 3> axis({parameters.rotation_axis[0], parameters.rotation_axis[1],
-                                   parameters.rotation_axis[2]});
+  const dealii::Tensor<1, 3> axis(
+      {parameters.rotation_axis[0], parameters.rotation_axis[1], parameters.rotation_axis[2]});
   rotation = make_rotation(parameters.rotation_angle * dealii::numbers::PI / 180., axis,
                            std::integral_constant<int, dim>());
   for (unsigned int d = 0; d < dim; ++d)

@@ -68,8 +68,8 @@ void set_manifold(const BodyParameters &parameters, unsigned int body, dealii::T
     mesh.set_manifold(body, dealii::SphericalManifold<dim>(centre));
   if constexpr (dim == 3)
     if (parameters.mesh.shape == MeshParameters::Shape::cylinder)
-      mesh.set_manifold(body, dealii::CylindricalManifold<3>(
-                                placement.rotate(dealii::Point<3>::unit_vector(2)), centre));
+      mesh.set_manifold(
+          body, dealii::CylindricalManifold<3>(placement.rotate(dealii::Point<3>::unit_vector(2)), centre));
 }
 
 /// Distance of a cell from what its body is graded towards, in the body's own coordinates.
@@ -91,7 +91,8 @@ double distance_to_grading(const BodyParameters &parameters, const Placement<dim
   const dealii::BoundingBox<dim> box(vertices);
   double squared = 0.;
   for (unsigned int d = 0; d < dim; ++d)
-    squared += std::pow(std::max({box.lower_bound(d) - grading.point[d], grading.point[d] - box.upper_bound(d), 0.}), 2);
+    squared += std::pow(
+        std::max({box.lower_bound(d) - grading.point[d], grading.point[d] - box.upper_bound(d), 0.}), 2);
   return std::sqrt(squared);
 }
 
@@ -109,14 +110,16 @@ bool is_refined_in_round(const MeshParameters &mesh, unsigned int level, unsigne
 }
 
 template <int dim>
-void refine(const std::vector<BodyParameters> &bodies, dealii::parallel::distributed::Triangulation<dim> &mesh)
+void refine(const std::vector<BodyParameters> &bodies,
+            dealii::parallel::distributed::Triangulation<dim> &mesh)
 {
   std::vector<Placement<dim>> placements;
   unsigned int n_rounds = 0;
   for (const BodyParameters &body : bodies)
   {
     placements.emplace_back(body.placement);
-    n_rounds = std::max(n_rounds, body.mesh.refinements + (body.mesh.grading ? body.mesh.grading->levels : 0));
+    n_rounds =
+        std::max(n_rounds, body.mesh.refinements + (body.mesh.grading ? body.mesh.grading->levels : 0));
   }
   for (unsigned int round = 0; round < n_rounds; ++round)
   {
@@ -124,7 +127,8 @@ void refine(const std::vector<BodyParameters> &bodies, dealii::parallel::distrib
       if (cell->is_locally_owned())
       {
         const unsigned int body = cell->material_id();
-        const auto distance = [&]() { return distance_to_grading<dim>(bodies[body], placements[body], cell); };
+        const auto distance = [&]()
+        { return distance_to_grading<dim>(bodies[body], placements[body], cell); };
         if (is_refined_in_round(bodies[body].mesh, cell->level(), round, distance))
           cell->set_refine_flag();
       }

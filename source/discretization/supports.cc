@@ -46,7 +46,7 @@ Entries<dim> find_entries_of_own_cells(const Scene<dim> &scene, const Discretiza
           for (auto support = first; support != last; ++support)
             for (unsigned int i = 0; i < face_dofs.size(); ++i)
               if (discretization.element.face_system_to_component_index(i).first ==
-                    scene.supports[support->second].component &&
+                      scene.supports[support->second].component &&
                   !discretization.hanging_constraints.is_constrained(face_dofs[i]))
                 entries.push_back({face_dofs[i], support->second, positions[face_dofs[i]]});
         }
@@ -87,11 +87,12 @@ Entries<dim> unpack(const std::vector<std::vector<double>> &packed_of_ranks)
 template <int dim>
 SupportedDofs<dim>::SupportedDofs(const Scene<dim> &the_scene, const Discretization<dim> &discretization,
                                   double end_time)
-  : scene(&the_scene)
+    : scene(&the_scene)
 {
   Entries<dim> entries = unpack<dim>(dealii::Utilities::MPI::all_gather(
-    discretization.communicator(), pack<dim>(find_entries_of_own_cells(the_scene, discretization))));
-  std::sort(entries.begin(), entries.end(), [](const Entry &a, const Entry &b)
+      discretization.communicator(), pack<dim>(find_entries_of_own_cells(the_scene, discretization))));
+  std::sort(entries.begin(), entries.end(),
+            [](const Entry &a, const Entry &b)
             { return std::pair(a.dof, a.support) < std::pair(b.dof, b.support); });
   for (const Entry &entry : entries)
   {
@@ -103,9 +104,11 @@ SupportedDofs<dim>::SupportedDofs(const Scene<dim> &the_scene, const Discretizat
     for (const double t : {0., end_time})
       if (std::abs(value(all.back(), t) - value(entry, t)) > 1e-12 * std::abs(value(entry, t)))
       {
-        const Support<dim> &one = scene->supports[all.back().support], &other = scene->supports[entry.support];
-        throw InputError("Body " + scene->body_names[one.body] + ": the supports '" + one.boundary + "' and '" +
-                         other.boundary + "' contradict each other in component " + "xyz"[one.component] +
+        const Support<dim> &one = scene->supports[all.back().support],
+                           &other = scene->supports[entry.support];
+        throw InputError("Body " + scene->body_names[one.body] + ": the supports '" + one.boundary +
+                         "' and '" + other.boundary + "' contradict each other in component " +
+                         "xyz"[one.component] +
                          " on the edge they share; leave that component out of one of them");
       }
   }

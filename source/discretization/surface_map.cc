@@ -23,7 +23,8 @@ struct TravellingNode
 template <int dim>
 SpatialVector<dim> area_normal_at_centre(const std::vector<TravellingNode<dim>> &nodes, unsigned int degree)
 {
-  const auto corner = [&](unsigned int i, unsigned int j) { return nodes[degree * (i + j * (degree + 1))].position; };
+  const auto corner = [&](unsigned int i, unsigned int j)
+  { return nodes[degree * (i + j * (degree + 1))].position; };
   const SpatialVector<dim> t = corner(1, 0) - corner(0, 0);
   if constexpr (dim == 2)
     return SpatialVector<2>(t[1], -t[0]);
@@ -51,7 +52,7 @@ std::vector<double> pack_own_facets(const Discretization<dim> &discretization)
 {
   const auto &element = discretization.element;
   const std::vector<unsigned int> lexicographic =
-    dealii::FETools::hierarchic_to_lexicographic_numbering<dim - 1>(element.degree);
+      dealii::FETools::hierarchic_to_lexicographic_numbering<dim - 1>(element.degree);
   std::map<dealii::types::global_dof_index, dealii::Point<dim>> positions;
   dealii::DoFTools::map_dofs_to_support_points(discretization.mapping, discretization.dof_handler, positions);
 
@@ -92,11 +93,12 @@ std::vector<double> pack_own_facets(const Discretization<dim> &discretization)
 
 template <int dim>
 SurfaceMap<dim>::SurfaceMap(const Scene<dim> &scene, const Discretization<dim> &the_discretization)
-  : discretization(&the_discretization)
+    : discretization(&the_discretization)
 {
   contact_surface.n_bodies = scene.n_bodies();
-  number_nodes(dealii::Utilities::MPI::all_gather(discretization->communicator(), pack_own_facets(*discretization)),
-               dealii::Utilities::MPI::this_mpi_process(discretization->communicator()));
+  number_nodes(
+      dealii::Utilities::MPI::all_gather(discretization->communicator(), pack_own_facets(*discretization)),
+      dealii::Utilities::MPI::this_mpi_process(discretization->communicator()));
   for (Facet<dim> &facet : contact_surface.facets)
   {
     facet.youngs_modulus = scene.materials[facet.body].youngs_modulus;
@@ -115,7 +117,8 @@ SurfaceMap<dim>::SurfaceMap(const Scene<dim> &scene, const Discretization<dim> &
 }
 
 template <int dim>
-void SurfaceMap<dim>::number_nodes(const std::vector<std::vector<double>> &packed_facets, unsigned int this_rank)
+void SurfaceMap<dim>::number_nodes(const std::vector<std::vector<double>> &packed_facets,
+                                   unsigned int this_rank)
 {
   const unsigned int degree = discretization->element.degree;
   std::unordered_map<dealii::types::global_dof_index, unsigned int> node_of_dof;

@@ -39,9 +39,9 @@ double norm(const std::array<double, 3> &vector)
 /// Hertz's answers for the force that was measured.
 struct Hertz
 {
-  double radius = 0.;       ///< a
-  double peak_pressure = 0.;///< p₀
-  double approach = 0.;     ///< δ; spheres only
+  double radius = 0.;        ///< a
+  double peak_pressure = 0.; ///< p₀
+  double approach = 0.;      ///< δ; spheres only
 };
 
 template <int dim>
@@ -81,11 +81,12 @@ std::vector<ErrorRow> hertz(const Results<dim> &results)
   const double fraction = results.parameters->exact_solution->values.at("Fraction of the contact");
   const double area = results.contact.area / fraction;
   std::vector<ErrorRow> rows{
-    compare("peak pressure", results.contact.max_pressure, exact.peak_pressure),
-    compare("contact radius", dim == 2 ? area / 2. : std::sqrt(area / pi), exact.radius)};
+      compare("peak pressure", results.contact.max_pressure, exact.peak_pressure),
+      compare("contact radius", dim == 2 ? area / 2. : std::sqrt(area / pi), exact.radius)};
   if (dim == 3)
     rows.push_back(compare("approach", results.largest_support_displacement, exact.approach));
-  rows.push_back({"pressure profile (relative L2 distance)", profile_error(results), 0., profile_error(results)});
+  rows.push_back(
+      {"pressure profile (relative L2 distance)", profile_error(results), 0., profile_error(results)});
   return rows;
 }
 
@@ -105,11 +106,12 @@ std::vector<ErrorRow> squeezed_bars(const Results<dim> &results)
       }
   const auto shortening = [&](const BodyParameters &body)
   {
-    return pressure / body.material.youngs_modulus * (body.mesh.upper_corner[dim - 1] - body.mesh.lower_corner[dim - 1]);
+    return pressure / body.material.youngs_modulus *
+           (body.mesh.upper_corner[dim - 1] - body.mesh.lower_corner[dim - 1]);
   };
   const double end = results.body_end_displacement.at(1)[dim - 1];
-  return {compare("penetration over shortening of the surface layers", results.contact.max_penetration / layers,
-                  1. / results.parameters->contact->penalty_factor),
+  return {compare("penetration over shortening of the surface layers",
+                  results.contact.max_penetration / layers, 1. / results.parameters->contact->penalty_factor),
           compare("displacement of the loaded end", end, shortening(one) + shortening(other))};
 }
 
@@ -124,7 +126,8 @@ std::vector<ErrorRow> patch(const Results<dim> &results)
   for (const auto &sample : results.samples)
     if (sample.area > 1e-9 * largest_area && std::abs(sample.pressure - exact) >= std::abs(worst - exact))
       worst = sample.pressure;
-  const double low = -results.smallest_stress(dim - 1, dim - 1), high = -results.largest_stress(dim - 1, dim - 1);
+  const double low = -results.smallest_stress(dim - 1, dim - 1),
+               high = -results.largest_stress(dim - 1, dim - 1);
   double worst_node = exact;
   for (const double pressure : results.nodal_pressures)
     if (std::abs(pressure - exact) >= std::abs(worst_node - exact))
@@ -139,7 +142,8 @@ std::vector<ErrorRow> patch(const Results<dim> &results)
   for (unsigned int i = 0; i < 3; ++i)
     for (unsigned int j = 0; j < 3; ++j)
       if ((i != dim - 1 || j != dim - 1) && !(dim == 2 && i == 2 && j == 2))
-        other = std::max({other, std::abs(results.smallest_stress(i, j)), std::abs(results.largest_stress(i, j))});
+        other = std::max(
+            {other, std::abs(results.smallest_stress(i, j)), std::abs(results.largest_stress(i, j))});
   rows.push_back({"other stresses over the pressure", other / exact, 0., other / exact});
   return rows;
 }
@@ -196,9 +200,9 @@ using Case = std::pair<std::string, std::function<std::vector<ErrorRow>(const Re
 template <int dim>
 const std::vector<Case<dim>> &cases()
 {
-  static const std::vector<Case<dim>> table{{"Hertz sphere", hertz<dim>},        {"Hertz cylinder", hertz<dim>},
-                                            {"Squeezed bars", squeezed_bars<dim>}, {"Patch", patch<dim>},
-                                            {"Bar impact", bar_impact<dim>},      {"Bounce", bounce<dim>}};
+  static const std::vector<Case<dim>> table{
+      {"Hertz sphere", hertz<dim>}, {"Hertz cylinder", hertz<dim>},  {"Squeezed bars", squeezed_bars<dim>},
+      {"Patch", patch<dim>},        {"Bar impact", bar_impact<dim>}, {"Bounce", bounce<dim>}};
   return table;
 }
 } // namespace
@@ -221,7 +225,8 @@ template <int dim>
 double exact_pressure(const Results<dim> &results, double radius)
 {
   const Hertz exact = solve_hertz(results);
-  return radius < exact.radius ? exact.peak_pressure * std::sqrt(1. - std::pow(radius / exact.radius, 2)) : 0.;
+  return radius < exact.radius ? exact.peak_pressure * std::sqrt(1. - std::pow(radius / exact.radius, 2))
+                               : 0.;
 }
 
 double restitution(double damping_ratio)

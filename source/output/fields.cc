@@ -20,7 +20,8 @@ double von_mises(const Eigen::Matrix3d &stress)
   return std::sqrt(1.5) * deviator.norm();
 }
 
-/// The piecewise linear function that is 1 at node i of a facet and 0 at its other nodes: it is nowhere negative.
+/// The piecewise linear function that is 1 at node i of a facet and 0 at its other nodes: it is nowhere
+/// negative.
 template <int dim>
 double hat_function(const Facet<dim> &facet, unsigned int i, const LocalPoint<dim> &xi)
 {
@@ -35,12 +36,12 @@ double hat_function(const Facet<dim> &facet, unsigned int i, const LocalPoint<di
 
 /// Cell data by name, indexed by active cell as DataOut wants them.
 template <int dim>
-std::vector<std::pair<std::string, dealii::Vector<float>>> make_cell_data(const Discretization<dim> &discretization,
-                                                                         const InternalForce<dim> &elasticity)
+std::vector<std::pair<std::string, dealii::Vector<float>>>
+make_cell_data(const Discretization<dim> &discretization, const InternalForce<dim> &elasticity)
 {
   std::vector<std::pair<std::string, dealii::Vector<float>>> data;
-  for (const char *name : {"body", "von_mises_stress", "stress_xx", "stress_yy", "stress_zz", "stress_xy", "stress_yz",
-                           "stress_xz"})
+  for (const char *name : {"body", "von_mises_stress", "stress_xx", "stress_yy", "stress_zz", "stress_xy",
+                           "stress_yz", "stress_xz"})
     data.emplace_back(name, dealii::Vector<float>(discretization.mesh->n_active_cells()));
   const std::vector<Eigen::Matrix3d> stresses = elasticity.stresses();
   unsigned int own_cell = 0;
@@ -48,8 +49,8 @@ std::vector<std::pair<std::string, dealii::Vector<float>>> make_cell_data(const 
     if (cell->is_locally_owned())
     {
       const Eigen::Matrix3d &s = stresses[own_cell++];
-      const std::array<double, 8> values{{static_cast<double>(cell->material_id()), von_mises(s), s(0, 0), s(1, 1),
-                                          s(2, 2), s(0, 1), s(1, 2), s(0, 2)}};
+      const std::array<double, 8> values{{static_cast<double>(cell->material_id()), von_mises(s), s(0, 0),
+                                          s(1, 1), s(2, 2), s(0, 1), s(1, 2), s(0, 2)}};
       for (unsigned int i = 0; i < values.size(); ++i)
         data[i].second[cell->active_cell_index()] = static_cast<float>(values[i]);
     }
@@ -60,9 +61,7 @@ std::vector<std::pair<std::string, dealii::Vector<float>>> make_cell_data(const 
 template <int dim>
 Fields<dim>::Fields(const Discretization<dim> &the_discretization, const SurfaceMap<dim> *surface_map,
                     std::string output_directory)
-  : discretization(&the_discretization)
-  , map(surface_map)
-  , directory(std::move(output_directory))
+    : discretization(&the_discretization), map(surface_map), directory(std::move(output_directory))
 {
   if (map)
     number_contact_fields();
@@ -78,7 +77,7 @@ void Fields<dim>::number_contact_fields()
 
   std::unordered_map<dealii::types::global_dof_index, dealii::types::global_dof_index> scalar_dofs;
   std::vector<dealii::types::global_dof_index> dofs(discretization->element.n_dofs_per_cell()),
-    scalars(contact->element.n_dofs_per_cell());
+      scalars(contact->element.n_dofs_per_cell());
   auto scalar_cell = contact->dof_handler.begin_active();
   for (const auto &cell : discretization->dof_handler.active_cell_iterators())
   {
@@ -104,7 +103,8 @@ template <int dim>
 std::pair<Vector, Vector> Fields<dim>::project_contact(const SceneForces<dim> &forces) const
 {
   const ContactSurface<dim> &surface = map->surface();
-  std::vector<double> pressures(surface.n_nodes(), 0.), gaps(surface.n_nodes(), 0.), areas(surface.n_nodes(), 0.);
+  std::vector<double> pressures(surface.n_nodes(), 0.), gaps(surface.n_nodes(), 0.),
+      areas(surface.n_nodes(), 0.);
   for (const auto &term : forces.contacts)
   {
     const std::vector<SpatialVector<dim>> nodal_forces = term->nodal_forces();
@@ -131,7 +131,8 @@ std::pair<Vector, Vector> Fields<dim>::project_contact(const SceneForces<dim> &f
     for (unsigned int i = 0; i < facet.n_nodes(); ++i)
       far_gap[facet.nodes[i]] = std::max(far_gap[facet.nodes[i]], facet.layer_thickness);
 
-  Vector pressure(contact->dof_handler.locally_owned_dofs(), contact->relevant, discretization->communicator());
+  Vector pressure(contact->dof_handler.locally_owned_dofs(), contact->relevant,
+                  discretization->communicator());
   Vector gap(pressure);
   for (const auto &[node, dof] : contact->owned)
   {
@@ -151,10 +152,11 @@ void Fields<dim>::write(const State &state, const SceneForces<dim> &forces)
   flags.compression_level = dealii::DataOutBase::VtkFlags::ZlibCompressionLevel::best_speed;
   data_out.set_flags(flags);
   const std::vector<dealii::DataComponentInterpretation::DataComponentInterpretation> vector_data(
-    dim, dealii::DataComponentInterpretation::component_is_part_of_vector);
+      dim, dealii::DataComponentInterpretation::component_is_part_of_vector);
   const auto names = [](const char *name) { return std::vector<std::string>(dim, name); };
   data_out.attach_dof_handler(discretization->dof_handler);
-  data_out.add_data_vector(discretization->dof_handler, state.displacement, names("displacement"), vector_data);
+  data_out.add_data_vector(discretization->dof_handler, state.displacement, names("displacement"),
+                           vector_data);
   if (state.velocity.size() > 0)
     data_out.add_data_vector(discretization->dof_handler, state.velocity, names("velocity"), vector_data);
   std::pair<Vector, Vector> contact_data;
@@ -172,7 +174,7 @@ void Fields<dim>::write(const State &state, const SceneForces<dim> &forces)
   try
   {
     const std::string record = data_out.write_vtu_with_pvtu_record(
-      directory + "/", "solution", records.size(), discretization->communicator(), 4);
+        directory + "/", "solution", records.size(), discretization->communicator(), 4);
     records.emplace_back(state.time, record);
   }
   catch (const dealii::ExceptionBase &)

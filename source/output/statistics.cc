@@ -7,9 +7,7 @@
 
 namespace signorini
 {
-Statistics::Statistics(const std::string &file_name)
-  : name(file_name)
-  , file(file_name)
+Statistics::Statistics(const std::string &file_name) : name(file_name), file(file_name)
 {
   if (!file)
     throw FileError("cannot write '" + name + "'");

@@ -75,10 +75,11 @@ template <int dim>
 void write_summary(const Results<dim> &results, const std::string &input, unsigned int n_ranks,
                    const std::string &directory)
 {
-  Json summary{{"program", "signorini"},     {"version", program_version()},           {"status", results.status},
-               {"input", input},             {"n_ranks", n_ranks},           {"parts", describe_parts(results)},
-               {"n_dofs", results.n_dofs},   {"n_cells", results.n_cells},   {"n_steps", results.n_steps},
-               {"n_iterations", results.n_iterations}};
+  Json summary{{"program", "signorini"},     {"version", program_version()},
+               {"status", results.status},   {"input", input},
+               {"n_ranks", n_ranks},         {"parts", describe_parts(results)},
+               {"n_dofs", results.n_dofs},   {"n_cells", results.n_cells},
+               {"n_steps", results.n_steps}, {"n_iterations", results.n_iterations}};
   summary["run_time"] = {{"total", results.total_run_time}, {"sections", results.run_time}};
   summary["memory_peak_mb"] = results.memory_peak_mb;
   if (results.has_contact)
@@ -86,7 +87,8 @@ void write_summary(const Results<dim> &results, const std::string &input, unsign
   if (results.has_ledger)
   {
     summary["energy"] = describe_energy(results);
-    summary["momentum"] = {{"linear_drift", results.max_linear_drift}, {"angular_drift", results.max_angular_drift}};
+    summary["momentum"] = {{"linear_drift", results.max_linear_drift},
+                           {"angular_drift", results.max_angular_drift}};
   }
   summary["errors"] = describe_errors(results);
 

@@ -6,8 +6,9 @@
 namespace signorini
 {
 template <int dim, typename Law>
-typename CellKernel<dim, Law>::Gradient
-CellKernel<dim, Law>::displacement_gradient(const CellGeometry &cell, unsigned int point, const double *u) const
+typename CellKernel<dim, Law>::Gradient CellKernel<dim, Law>::displacement_gradient(const CellGeometry &cell,
+                                                                                    unsigned int point,
+                                                                                    const double *u) const
 {
   double H[dim][dim] = {};
   const double *g = cell.gradients + point * cell.n_nodes * dim;
@@ -104,13 +105,15 @@ void CellKernel<dim, Law>::compute_tangent(const CellGeometry &cell, const doubl
             for (int l = 0; l < dim; ++l)
               tangent_row[b * dim + k] += row[k * dim + l] * g[b * dim + l];
         for (int j = 0; j < dim; ++j)
-          mean_ratio_gradient[a * dim + i] += cell.weights[q] * ratios[q].gradient[i * dim + j] * g[a * dim + j];
+          mean_ratio_gradient[a * dim + i] +=
+              cell.weights[q] * ratios[q].gradient[i * dim + j] * g[a * dim + j];
       }
   }
   if (uses_mean_volume)
     for (unsigned int i = 0; i < n; ++i)
       for (unsigned int j = 0; j < n; ++j)
-        tangent[i * n + j] += volumes[0].modulus / cell_volume * mean_ratio_gradient[i] * mean_ratio_gradient[j];
+        tangent[i * n + j] +=
+            volumes[0].modulus / cell_volume * mean_ratio_gradient[i] * mean_ratio_gradient[j];
 }
 
 template <int dim, typename Law>

@@ -10,18 +10,16 @@ namespace signorini
 {
 template <int dim>
 DeadLoad<dim>::DeadLoad(const Scene<dim> &the_scene, const Discretization<dim> &the_discretization)
-  : ForceTerm("loads", Kind::load, true)
-  , scene(&the_scene)
-  , discretization(&the_discretization)
-  , weight(the_discretization.make_vector())
+    : ForceTerm("loads", Kind::load, true), scene(&the_scene), discretization(&the_discretization),
+      weight(the_discretization.make_vector())
 {
   const CellTable<dim> &cells = discretization->cells;
   if (scene->gravity.norm() > 0.)
     for (unsigned int cell = 0; cell < cells.n_cells; ++cell)
       for (unsigned int i = 0; i < cells.n_cell_dofs(); ++i)
-        weight.local_element(cells.cell_dofs(cell)[i]) += scene->materials[cells.bodies[cell]].density *
-                                                          scene->gravity[i % dim] *
-                                                          cells.nodal_measures[cell * cells.n_nodes + i / dim];
+        weight.local_element(cells.cell_dofs(cell)[i]) +=
+            scene->materials[cells.bodies[cell]].density * scene->gravity[i % dim] *
+            cells.nodal_measures[cell * cells.n_nodes + i / dim];
   discretization->collect(weight);
   collect_points();
 }
@@ -37,7 +35,7 @@ void DeadLoad<dim>::collect_points()
   const dealii::QGauss<dim - 1> quadrature(element.degree + 1);
   dealii::FEFaceValues<dim> values(discretization->mapping, element, quadrature,
                                    dealii::update_values | dealii::update_JxW_values |
-                                     dealii::update_quadrature_points);
+                                       dealii::update_quadrature_points);
   std::vector<dealii::types::global_dof_index> dofs(element.n_dofs_per_cell());
   for (const auto &cell : discretization->dof_handler.active_cell_iterators())
     if (cell->is_locally_owned())

@@ -8,8 +8,7 @@ namespace signorini
 template <int dim>
 InternalForce<dim>::InternalForce(const std::vector<MaterialParameters> &materials,
                                   const Discretization<dim> &the_discretization)
-  : ForceTerm("elasticity", Kind::elastic, false)
-  , discretization(&the_discretization)
+    : ForceTerm("elasticity", Kind::elastic, false), discretization(&the_discretization)
 {
   for (const MaterialParameters &material : materials)
   {
@@ -41,19 +40,20 @@ void InternalForce<dim>::for_each_cell(const Action &action) const
   {
     const unsigned int body = cells.bodies[cell];
     std::visit(
-      [&](auto &kernel)
-      {
-        for (; cell < cells.n_cells && cells.bodies[cell] == body; ++cell)
+        [&](auto &kernel)
         {
-          const unsigned int *dofs = cells.cell_dofs(cell);
-          for (unsigned int i = 0; i < u.size(); ++i)
-            u[i] = displacement->local_element(dofs[i]);
-          action(kernel, cell,
-                 CellGeometry{cells.n_nodes, cells.n_points, cells.cell_gradients(cell), cells.cell_weights(cell)},
-                 u.data());
-        }
-      },
-      kernels[body]);
+          for (; cell < cells.n_cells && cells.bodies[cell] == body; ++cell)
+          {
+            const unsigned int *dofs = cells.cell_dofs(cell);
+            for (unsigned int i = 0; i < u.size(); ++i)
+              u[i] = displacement->local_element(dofs[i]);
+            action(kernel, cell,
+                   CellGeometry{cells.n_nodes, cells.n_points, cells.cell_gradients(cell),
+                                cells.cell_weights(cell)},
+                   u.data());
+          }
+        },
+        kernels[body]);
   }
 }
 
@@ -72,27 +72,27 @@ void InternalForce<dim>::add_force(Vector &force) const
   const CellTable<dim> &cells = discretization->cells;
   std::vector<double> cell_force(cells.n_cell_dofs());
   for_each_cell(
-    [&](auto &kernel, unsigned int cell, const CellGeometry &geometry, const double *u)
-    {
-      std::fill(cell_force.begin(), cell_force.end(), 0.);
-      kernel.add_force(geometry, u, cell_force.data());
-      const unsigned int *dofs = cells.cell_dofs(cell);
-      for (unsigned int i = 0; i < cell_force.size(); ++i)
-        force.local_element(dofs[i]) += cell_force[i];
-    });
+      [&](auto &kernel, unsigned int cell, const CellGeometry &geometry, const double *u)
+      {
+        std::fill(cell_force.begin(), cell_force.end(), 0.);
+        kernel.add_force(geometry, u, cell_force.data());
+        const unsigned int *dofs = cells.cell_dofs(cell);
+        for (unsigned int i = 0; i < cell_force.size(); ++i)
+          force.local_element(dofs[i]) += cell_force[i];
+      });
 }
 
 template <int dim>
 void InternalForce<dim>::for_each_tangent(
-  const std::function<void(unsigned int, const std::vector<double> &)> &visit) const
+    const std::function<void(unsigned int, const std::vector<double> &)> &visit) const
 {
   std::vector<double> tangent(discretization->cells.n_cell_dofs() * discretization->cells.n_cell_dofs());
   for_each_cell(
-    [&](auto &kernel, unsigned int cell, const CellGeometry &geometry, const double *u)
-    {
-      kernel.compute_tangent(geometry, u, tangent.data());
-      visit(cell, tangent);
-    });
+      [&](auto &kernel, unsigned int cell, const CellGeometry &geometry, const double *u)
+      {
+        kernel.compute_tangent(geometry, u, tangent.data());
+        visit(cell, tangent);
+      });
 }
 
 template <int dim>
@@ -105,13 +105,14 @@ void InternalForce<dim>::add_tangent(TangentSystem &system) const
   dealii::Vector<double> zero(n);
   std::vector<dealii::types::global_dof_index> dofs(n);
   for_each_tangent(
-    [&](unsigned int cell, const std::vector<double> &tangent)
-    {
-      matrix.fill(tangent.data());
-      for (unsigned int i = 0; i < n; ++i)
-        dofs[i] = partitioner.local_to_global(cells.cell_dofs(cell)[i]);
-      system.constraints->distribute_local_to_global(matrix, zero, dofs, system.matrix, system.right_hand_side);
-    });
+      [&](unsigned int cell, const std::vector<double> &tangent)
+      {
+        matrix.fill(tangent.data());
+        for (unsigned int i = 0; i < n; ++i)
+          dofs[i] = partitioner.local_to_global(cells.cell_dofs(cell)[i]);
+        system.constraints->distribute_local_to_global(matrix, zero, dofs, system.matrix,
+                                                       system.right_hand_side);
+      });
 }
 
 template <int dim>
@@ -120,23 +121,23 @@ void InternalForce<dim>::add_magnitudes(Vector &magnitudes) const
   const CellTable<dim> &cells = discretization->cells;
   std::vector<double> slopes(cells.n_nodes);
   for_each_cell(
-    [&](auto &, unsigned int cell, const CellGeometry &geometry, const double *u)
-    {
-      const unsigned int *dofs = cells.cell_dofs(cell);
-      for (unsigned int q = 0; q < geometry.n_points; ++q)
+      [&](auto &, unsigned int cell, const CellGeometry &geometry, const double *u)
       {
-        double strain = 1.; // of F and v the laws subtract 1
-        for (unsigned int a = 0; a < geometry.n_nodes; ++a)
+        const unsigned int *dofs = cells.cell_dofs(cell);
+        for (unsigned int q = 0; q < geometry.n_points; ++q)
         {
-          const double *gradient = geometry.gradients + (q * geometry.n_nodes + a) * dim;
-          slopes[a] = Eigen::Map<const SpatialVector<dim>>(gradient).norm();
-          strain += slopes[a] * Eigen::Map<const SpatialVector<dim>>(u + a * dim).norm();
+          double strain = 1.; // of F and v the laws subtract 1
+          for (unsigned int a = 0; a < geometry.n_nodes; ++a)
+          {
+            const double *gradient = geometry.gradients + (q * geometry.n_nodes + a) * dim;
+            slopes[a] = Eigen::Map<const SpatialVector<dim>>(gradient).norm();
+            strain += slopes[a] * Eigen::Map<const SpatialVector<dim>>(u + a * dim).norm();
+          }
+          const double stress = moduli[cells.bodies[cell]] * strain;
+          for (unsigned int i = 0; i < cells.n_cell_dofs(); ++i)
+            magnitudes.local_element(dofs[i]) += geometry.weights[q] * stress * slopes[i / dim];
         }
-        const double stress = moduli[cells.bodies[cell]] * strain;
-        for (unsigned int i = 0; i < cells.n_cell_dofs(); ++i)
-          magnitudes.local_element(dofs[i]) += geometry.weights[q] * stress * slopes[i / dim];
-      }
-    });
+      });
 }
 
 template <int dim>

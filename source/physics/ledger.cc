@@ -20,7 +20,8 @@ double relative_difference(const std::array<double, 3> &now, const std::array<do
 
 double EnergyLedger::imbalance() const
 {
-  return kinetic + elastic + contact + dissipated - work_of_loads - work_of_supports - contact_renewals - initial;
+  return kinetic + elastic + contact + dissipated - work_of_loads - work_of_supports - contact_renewals -
+         initial;
 }
 
 double EnergyLedger::residual() const
@@ -30,7 +31,8 @@ double EnergyLedger::residual() const
 
 void EnergyLedger::note_scale()
 {
-  largest = std::max(largest, std::max(kinetic + elastic + contact, std::abs(work_of_loads) + std::abs(work_of_supports)));
+  largest = std::max(
+      largest, std::max(kinetic + elastic + contact, std::abs(work_of_loads) + std::abs(work_of_supports)));
 }
 
 double MomentumLedger::linear_drift() const

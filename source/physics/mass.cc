@@ -13,14 +13,15 @@ Vector lump(const Discretization<dim> &discretization, const Factor &factor_of_b
   for (unsigned int cell = 0; cell < cells.n_cells; ++cell)
     for (unsigned int i = 0; i < cells.n_cell_dofs(); ++i)
       lumped.local_element(cells.cell_dofs(cell)[i]) +=
-        factor_of_body(cells.bodies[cell]) * cells.nodal_measures[cell * cells.n_nodes + i / dim];
+          factor_of_body(cells.bodies[cell]) * cells.nodal_measures[cell * cells.n_nodes + i / dim];
   discretization.collect(lumped);
   return lumped;
 }
 } // namespace
 
 template <int dim>
-Vector make_lumped_mass(const std::vector<MaterialParameters> &materials, const Discretization<dim> &discretization)
+Vector make_lumped_mass(const std::vector<MaterialParameters> &materials,
+                        const Discretization<dim> &discretization)
 {
   return lump(discretization, [&](unsigned int body) { return materials[body].density; });
 }

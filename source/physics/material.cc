@@ -42,7 +42,7 @@ void LinearElastic<dim>::shape(const Gradient &H, Order order, ShapeResponse<dim
       for (int k = 0; k < dim; ++k)
         for (int l = 0; l < dim; ++l)
           response.tangent(i * dim + j, k * dim + l) =
-            shear_modulus * ((i == k) * (j == l) + (i == l) * (j == k) - 2. / 3. * (i == j) * (k == l));
+              shear_modulus * ((i == k) * (j == l) + (i == l) * (j == k) - 2. / 3. * (i == j) * (k == l));
 }
 
 template <int dim>
@@ -96,8 +96,8 @@ void NeoHookean<dim>::shape(const Gradient &H, Order order, ShapeResponse<dim> &
       for (int k = 0; k < dim; ++k)
         for (int l = 0; l < dim; ++l)
           response.tangent(i * dim + j, k * dim + l) =
-            mu * ((i == k) * (j == l) - 2. / 3. * (F(i, j) * G(k, l) + G(i, j) * F(k, l)) +
-                  first_invariant * (2. / 9. * G(i, j) * G(k, l) + 1. / 3. * G(i, l) * G(k, j)));
+              mu * ((i == k) * (j == l) - 2. / 3. * (F(i, j) * G(k, l) + G(i, j) * F(k, l)) +
+                    first_invariant * (2. / 9. * G(i, j) * G(k, l) + 1. / 3. * G(i, l) * G(k, j)));
 }
 
 template <int dim>
@@ -122,8 +122,8 @@ void NeoHookean<dim>::volume_ratio(const Gradient &H, Order order, VolumeRatio<d
 template <int dim>
 VolumeResponse NeoHookean<dim>::volume(double ratio) const
 {
-  return {0.5 * bulk_modulus * (0.5 * (ratio * ratio - 1.) - std::log(ratio)), 0.5 * bulk_modulus * (ratio - 1. / ratio),
-          0.5 * bulk_modulus * (1. + 1. / (ratio * ratio))};
+  return {0.5 * bulk_modulus * (0.5 * (ratio * ratio - 1.) - std::log(ratio)),
+          0.5 * bulk_modulus * (ratio - 1. / ratio), 0.5 * bulk_modulus * (1. + 1. / (ratio * ratio))};
 }
 
 template <int dim>

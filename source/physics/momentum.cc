@@ -33,6 +33,8 @@ VectorAndMoment sum_over_nodes(const Discretization<dim> &discretization, const 
   return {{sums[0], sums[1], sums[2]}, {sums[3], sums[4], sums[5]}, sums[6], sums[7]};
 }
 
-template VectorAndMoment sum_over_nodes<2>(const Discretization<2> &, const Vector &, const Vector &, const Vector *);
-template VectorAndMoment sum_over_nodes<3>(const Discretization<3> &, const Vector &, const Vector &, const Vector *);
+template VectorAndMoment sum_over_nodes<2>(const Discretization<2> &, const Vector &, const Vector &,
+                                           const Vector *);
+template VectorAndMoment sum_over_nodes<3>(const Discretization<3> &, const Vector &, const Vector &,
+                                           const Vector *);
 } // namespace signorini

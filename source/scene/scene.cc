@@ -36,8 +36,8 @@ void add_supports_and_loads(const BodyParameters &body, unsigned int index, Scen
                                   "Body " + body.name + "/Support " + support.boundary});
   for (const LoadParameters &load : body.loads)
   {
-    Load<dim> traction{index, load.boundary, find_id(load.boundary), {},
-                       "Body " + body.name + "/Load " + load.boundary};
+    Load<dim> traction{
+        index, load.boundary, find_id(load.boundary), {}, "Body " + body.name + "/Load " + load.boundary};
     for (unsigned int component = 0; component < dim; ++component)
       traction.traction.emplace_back(load.traction[component]);
     scene.loads.push_back(std::move(traction));
@@ -49,13 +49,15 @@ std::shared_ptr<const Obstacle<dim>> make_obstacle(const ObstacleParameters &par
 {
   const SpatialVector<dim> point = to_spatial_vector<dim>(parameters.point);
   if (parameters.shape == ObstacleParameters::Shape::plane)
-    return std::make_shared<RigidPlane<dim>>(parameters.name, point, to_spatial_vector<dim>(parameters.normal));
+    return std::make_shared<RigidPlane<dim>>(parameters.name, point,
+                                             to_spatial_vector<dim>(parameters.normal));
   return std::make_shared<RigidSphere<dim>>(parameters.name, point, parameters.radius);
 }
 } // namespace
 
 template <int dim>
-double evaluate(const Expression &expression, const std::string &description, const dealii::Point<dim> &x, double t)
+double evaluate(const Expression &expression, const std::string &description, const dealii::Point<dim> &x,
+                double t)
 {
   Triple point{};
   for (unsigned int d = 0; d < dim; ++d)

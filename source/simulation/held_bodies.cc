@@ -37,7 +37,8 @@ Eigen::VectorXd rigid_motions(const dealii::Tensor<1, dim> &arm, unsigned int co
 
 bool is_pair_excluded(const ContactParameters &contact, const std::string &one, const std::string &other)
 {
-  return std::any_of(contact.excluded_pairs.begin(), contact.excluded_pairs.end(), [&](const auto &pair)
+  return std::any_of(contact.excluded_pairs.begin(), contact.excluded_pairs.end(),
+                     [&](const auto &pair)
                      { return pair == std::pair(one, other) || pair == std::pair(other, one); });
 }
 
@@ -71,7 +72,8 @@ std::vector<bool> find_held_bodies(const Scene<dim> &scene, const SupportedDofs<
     if (counts[body] > 0)
       centres[body] /= counts[body];
   for (const auto &entry : supports.entries())
-    lengths[body_of(entry)] = std::max(lengths[body_of(entry)], (entry.position - centres[body_of(entry)]).norm());
+    lengths[body_of(entry)] =
+        std::max(lengths[body_of(entry)], (entry.position - centres[body_of(entry)]).norm());
 
   const unsigned int n = n_rigid_motions(dim);
   std::vector<Eigen::MatrixXd> gram(scene.n_bodies(), Eigen::MatrixXd::Zero(n, n));
@@ -94,10 +96,11 @@ void check_held(const Parameters &parameters, const Scene<dim> &scene, const std
   for (unsigned int body = 0; body < scene.n_bodies(); ++body)
     if (!is_held[body] && !may_touch_something(parameters, scene.body_names[body]))
       throw InputError(
-        Complaint("body '" + scene.body_names[body] +
-                  "' is free to move: its supports leave a rigid motion and it can touch nothing that would hold it")
-          .at("subsection Body " + scene.body_names[body])
-          .advise("add a subsection Support, or a subsection Contact with something to lean on"));
+          Complaint("body '" + scene.body_names[body] +
+                    "' is free to move: its supports leave a rigid motion and it can touch nothing that "
+                    "would hold it")
+              .at("subsection Body " + scene.body_names[body])
+              .advise("add a subsection Support, or a subsection Contact with something to lean on"));
 }
 
 template std::vector<bool> find_held_bodies<2>(const Scene<2> &, const SupportedDofs<2> &);

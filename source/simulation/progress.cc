@@ -12,12 +12,10 @@
 namespace signorini
 {
 Progress::Progress(bool is_first_rank, bool quiet)
-  : is_active(is_first_rank)
-  , is_quiet(quiet)
-  , is_terminal(isatty(STDOUT_FILENO) == 1)
-  , start(std::chrono::steady_clock::now())
-  , last_shown(start - std::chrono::hours(1))
-{}
+    : is_active(is_first_rank), is_quiet(quiet), is_terminal(isatty(STDOUT_FILENO) == 1),
+      start(std::chrono::steady_clock::now()), last_shown(start - std::chrono::hours(1))
+{
+}
 
 void Progress::open_log(const std::string &directory)
 {

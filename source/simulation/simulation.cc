@@ -21,11 +21,9 @@ namespace signorini
 template <int dim>
 Simulation<dim>::Simulation(const Parameters &the_parameters, const std::string &input_name,
                             const MPI_Comm &mpi_communicator, bool is_quiet)
-  : parameters(the_parameters)
-  , input(input_name)
-  , communicator(mpi_communicator)
-  , progress(dealii::Utilities::MPI::this_mpi_process(mpi_communicator) == 0, is_quiet)
-  , scene(make_scene<dim>(the_parameters))
+    : parameters(the_parameters), input(input_name), communicator(mpi_communicator),
+      progress(dealii::Utilities::MPI::this_mpi_process(mpi_communicator) == 0, is_quiet),
+      scene(make_scene<dim>(the_parameters))
 {
   const auto section = run_time.enter("set-up");
   results.parameters = &parameters;

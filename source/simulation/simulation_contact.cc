@@ -22,16 +22,18 @@ contact::PotentialSettings make_settings(const Parameters &parameters)
   contact::PotentialSettings settings;
   settings.penalty_factor = contact.penalty_factor;
   settings.n_quadrature_points = contact.quadrature_points;
-  const bool is_by_faces = contact.integration == Wanted::automatic ? is_explicit
-                                                                    : contact.integration == Wanted::face_quadrature;
-  settings.integration = is_by_faces ? contact::Integration::face_quadrature : contact::Integration::face_segments;
+  const bool is_by_faces =
+      contact.integration == Wanted::automatic ? is_explicit : contact.integration == Wanted::face_quadrature;
+  settings.integration =
+      is_by_faces ? contact::Integration::face_quadrature : contact::Integration::face_segments;
   if (contact.damping)
     settings.damping_ratio = contact.damping->damping_ratio;
 
   const auto find = [](const auto &list, const std::string &name)
   {
     return static_cast<unsigned int>(
-      std::find_if(list.begin(), list.end(), [&](const auto &entry) { return entry.name == name; }) - list.begin());
+        std::find_if(list.begin(), list.end(), [&](const auto &entry) { return entry.name == name; }) -
+        list.begin());
   };
   const unsigned int n_bodies = parameters.bodies.size();
   for (const auto &[one, other] : contact.excluded_pairs)
@@ -54,17 +56,17 @@ void Simulation<dim>::build_contact()
   const contact::PotentialSettings settings = make_settings<dim>(parameters);
   surface_map = std::make_unique<SurfaceMap<dim>>(scene, *discretization);
   if (scene.n_bodies() > 1)
-    forces.contacts.push_back(
-      std::make_shared<ContactForce<dim>>("contact of bodies", false, *surface_map,
-                                          typename contact::ContactPotential<dim>::Obstacles(), settings, communicator));
+    forces.contacts.push_back(std::make_shared<ContactForce<dim>>(
+        "contact of bodies", false, *surface_map, typename contact::ContactPotential<dim>::Obstacles(),
+        settings, communicator));
   if (!scene.obstacles.empty())
   {
     contact::PotentialSettings obstacles_only = settings;
     for (unsigned int one = 0; one < scene.n_bodies(); ++one)
       for (unsigned int other = 0; other < one; ++other)
         obstacles_only.excluded_body_pairs.emplace_back(one, other);
-    forces.contacts.push_back(std::make_shared<ContactForce<dim>>("contact with obstacles", true, *surface_map,
-                                                                  scene.obstacles, obstacles_only, communicator));
+    forces.contacts.push_back(std::make_shared<ContactForce<dim>>(
+        "contact with obstacles", true, *surface_map, scene.obstacles, obstacles_only, communicator));
   }
   if (settings.damping_ratio)
     forces.damped_contacts = forces.contacts;
@@ -97,7 +99,7 @@ void Simulation<dim>::update_contact_measures()
   }
   results.contact = total;
   results.max_penetration_over_thickness =
-    std::max(results.max_penetration_over_thickness, total.max_penetration_over_thickness);
+      std::max(results.max_penetration_over_thickness, total.max_penetration_over_thickness);
   results.max_n_pairs = std::max(results.max_n_pairs, total.n_pairs);
 }
 
@@ -119,16 +121,17 @@ void Simulation<dim>::check_initial_overlap()
   if (!results.has_contact || results.max_penetration_over_thickness <= allowed)
     return;
   const auto &deepest = results.contact;
-  const std::string where = fmt::format("({:.6g})", fmt::join(deepest.deepest_position.data(),
-                                                              deepest.deepest_position.data() + dim, ", "));
+  const std::string where = fmt::format(
+      "({:.6g})", fmt::join(deepest.deepest_position.data(), deepest.deepest_position.data() + dim, ", "));
   if (!parameters.contact->allow_initial_overlap)
     throw InputError(
-      Complaint(fmt::format("body '{}' overlaps something by {:.3g} of its element size before the run begins",
-                            scene.body_names[surface_map->surface().facets[deepest.deepest_facet].body],
-                            deepest.max_penetration_over_thickness))
-        .at(where)
-        .expected(fmt::format("at most {} of an element", allowed))
-        .advise("move the bodies apart, or set Contact/Allow initial overlap = true"));
+        Complaint(
+            fmt::format("body '{}' overlaps something by {:.3g} of its element size before the run begins",
+                        scene.body_names[surface_map->surface().facets[deepest.deepest_facet].body],
+                        deepest.max_penetration_over_thickness))
+            .at(where)
+            .expected(fmt::format("at most {} of an element", allowed))
+            .advise("move the bodies apart, or set Contact/Allow initial overlap = true"));
   progress.say(fmt::format("Initial overlap: {:.3g} of an element at {}, storing {:.6g} J",
                            deepest.max_penetration_over_thickness, where, energy));
 }
@@ -141,12 +144,13 @@ void Simulation<dim>::check_penetration()
     return;
   const auto &deepest = results.contact;
   throw NumericalError(
-    Complaint(fmt::format("body '{}' sinks into another by {:.3g} of its element size at t = {:.6g}",
-                          scene.body_names[surface_map->surface().facets[deepest.deepest_facet].body],
-                          deepest.max_penetration_over_thickness, state.time))
-      .at(fmt::format("({:.6g})", fmt::join(deepest.deepest_position.data(), deepest.deepest_position.data() + dim, ", ")))
-      .expected(fmt::format("at most {} of an element: deeper, it could pass through", limit))
-      .advise("raise Contact/Penalty factor, refine, or load more slowly"));
+      Complaint(fmt::format("body '{}' sinks into another by {:.3g} of its element size at t = {:.6g}",
+                            scene.body_names[surface_map->surface().facets[deepest.deepest_facet].body],
+                            deepest.max_penetration_over_thickness, state.time))
+          .at(fmt::format("({:.6g})", fmt::join(deepest.deepest_position.data(),
+                                                deepest.deepest_position.data() + dim, ", ")))
+          .expected(fmt::format("at most {} of an element: deeper, it could pass through", limit))
+          .advise("raise Contact/Penalty factor, refine, or load more slowly"));
 }
 
 template <int dim>

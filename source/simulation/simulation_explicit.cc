@@ -15,7 +15,8 @@ namespace signorini
 template <int dim>
 void Simulation<dim>::run_explicit(const ExplicitParameters &solver_parameters)
 {
-  ExplicitSolver<dim> solver(*discretization, *supports, scene.materials, forces, solver_parameters, run_time);
+  ExplicitSolver<dim> solver(*discretization, *supports, scene.materials, forces, solver_parameters,
+                             run_time);
   solver.start(state);
   const double end = solver_parameters.end_time;
   const unsigned int n_rows = std::max(1u, parameters.output.n_statistics);
@@ -27,7 +28,8 @@ void Simulation<dim>::run_explicit(const ExplicitParameters &solver_parameters)
   while (state.time < end)
   {
     const double remaining = end - state.time, stable = solver.stable_step();
-    const double time_step = remaining > 2. * stable ? stable : remaining / std::ceil(remaining / stable - 1e-9);
+    const double time_step =
+        remaining > 2. * stable ? stable : remaining / std::ceil(remaining / stable - 1e-9);
     solver.step(time_step, state);
     if (end - state.time < 1e-9 * time_step)
       state.time = end;
@@ -88,15 +90,17 @@ void Simulation<dim>::record_explicit(const ExplicitSolver<dim> &solver, double 
                 state.time / end);
   if (!std::isfinite(energy.kinetic + energy.elastic))
     throw NumericalError(
-      Complaint(fmt::format("the motion is no longer a number at t = {:.6g}: an element was turned inside out",
-                            state.time))
-        .advise("look at the last fields; refine, or lower the step factors"));
+        Complaint(
+            fmt::format("the motion is no longer a number at t = {:.6g}: an element was turned inside out",
+                        state.time))
+            .advise("look at the last fields; refine, or lower the step factors"));
   const double tolerance = std::get<ExplicitParameters>(parameters.solver).ledger_tolerance;
   if (std::abs(energy.residual()) > tolerance)
-    throw NumericalError(Complaint(fmt::format("the energy ledger does not close at t = {:.6g}", state.time))
-                           .found(fmt::format("{:+.3g} of the largest energy", energy.residual()))
-                           .expected(fmt::format("at most {}", tolerance))
-                           .advise("lower Explicit/Contact step factor or Contact/Penalty factor, or refine"));
+    throw NumericalError(
+        Complaint(fmt::format("the energy ledger does not close at t = {:.6g}", state.time))
+            .found(fmt::format("{:+.3g} of the largest energy", energy.residual()))
+            .expected(fmt::format("at most {}", tolerance))
+            .advise("lower Explicit/Contact step factor or Contact/Penalty factor, or refine"));
 }
 
 template <int dim>
@@ -140,7 +144,8 @@ std::vector<BodyRecord> Simulation<dim>::record_bodies() const
   std::vector<double> momenta(dim * scene.n_bodies(), 0.);
   for (const OwnedNode<dim> &node : discretization->owned_nodes)
     for (unsigned int d = 0; d < dim; ++d)
-      momenta[dim * node.body + d] += mass.local_element(node.dofs[d]) * state.velocity.local_element(node.dofs[d]);
+      momenta[dim * node.body + d] +=
+          mass.local_element(node.dofs[d]) * state.velocity.local_element(node.dofs[d]);
   dealii::Utilities::MPI::sum(momenta, communicator, momenta);
   for (unsigned int body = 0; body < scene.n_bodies(); ++body)
     for (unsigned int d = 0; d < dim; ++d)

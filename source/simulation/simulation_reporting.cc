@@ -18,22 +18,25 @@ namespace signorini
 template <int dim>
 void Simulation<dim>::print_plan()
 {
-  progress.say(fmt::format("{} bodies, {} obstacles, {} cells of degree {}, {} dofs, {} ranks", scene.n_bodies(),
-                           scene.obstacles.size(), results.n_cells, parameters.degree, results.n_dofs,
-                           dealii::Utilities::MPI::n_mpi_processes(communicator)));
+  progress.say(fmt::format("{} bodies, {} obstacles, {} cells of degree {}, {} dofs, {} ranks",
+                           scene.n_bodies(), scene.obstacles.size(), results.n_cells, parameters.degree,
+                           results.n_dofs, dealii::Utilities::MPI::n_mpi_processes(communicator)));
   progress.say(fmt::format("Built: {}", fmt::join(results.parts_built, ", ")));
   for (const LeftOutPart &part : results.parts_left_out)
     progress.say(fmt::format("Left out: {} ({})", part.name, part.reason));
   if (results.has_contact)
-    progress.say(fmt::format("Contact: alpha = {}, k_A = {:.4g} Pa/m at most where surfaces are near, {} facets",
-                             parameters.contact->penalty_factor, results.contact.max_stiffness,
-                             surface_map->surface().facets.size()));
+    progress.say(
+        fmt::format("Contact: alpha = {}, k_A = {:.4g} Pa/m at most where surfaces are near, {} facets",
+                    parameters.contact->penalty_factor, results.contact.max_stiffness,
+                    surface_map->surface().facets.size()));
   if (const auto *quasi_static = std::get_if<QuasiStaticParameters>(&parameters.solver))
-    progress.say(fmt::format("Quasi-static: {} load steps to {}", quasi_static->load_steps, quasi_static->end_time));
+    progress.say(
+        fmt::format("Quasi-static: {} load steps to {}", quasi_static->load_steps, quasi_static->end_time));
   else
   {
     const auto &explicit_parameters = std::get<ExplicitParameters>(parameters.solver);
-    ExplicitSolver<dim> solver(*discretization, *supports, scene.materials, forces, explicit_parameters, run_time);
+    ExplicitSolver<dim> solver(*discretization, *supports, scene.materials, forces, explicit_parameters,
+                               run_time);
     State trial = state;
     solver.start(trial);
     const double step = solver.stable_step();
@@ -70,7 +73,8 @@ void Simulation<dim>::gather_samples()
   for (const auto &term : forces.contacts)
     for (const contact::ContactSample<dim> &sample : term->samples())
     {
-      packed.insert(packed.end(), {static_cast<double>(sample.facet), sample.depth, sample.pressure, sample.area});
+      packed.insert(packed.end(),
+                    {static_cast<double>(sample.facet), sample.depth, sample.pressure, sample.area});
       packed.insert(packed.end(), sample.position.begin(), sample.position.end());
     }
   for (const std::vector<double> &of_rank : dealii::Utilities::MPI::all_gather(communicator, packed))
@@ -127,7 +131,7 @@ void Simulation<dim>::gather_extremes()
     MPI_Allreduce(MPI_IN_PLACE, largest.data(), 3, MPI_DOUBLE, MPI_MAX, communicator);
   for (const auto &entry : supports->entries())
     results.largest_support_displacement =
-      std::max(results.largest_support_displacement, std::abs(supports->value(entry, state.time)));
+        std::max(results.largest_support_displacement, std::abs(supports->value(entry, state.time)));
 
   Vector load_force = discretization->make_vector();
   for (const auto &load : forces.loads)
@@ -165,20 +169,22 @@ void Simulation<dim>::print_results()
 {
   if (results.has_contact)
     progress.say(results.contact.n_active > 0
-                   ? fmt::format("Contact: largest pressure {:.6g} Pa, penetration/h {:.3g}, area {:.6g}",
-                                 results.contact.max_pressure, results.contact.max_penetration_over_thickness,
-                                 results.contact.area)
-                   : "Contact: nothing touches at the end of the run");
+                     ? fmt::format("Contact: largest pressure {:.6g} Pa, penetration/h {:.3g}, area {:.6g}",
+                                   results.contact.max_pressure,
+                                   results.contact.max_penetration_over_thickness, results.contact.area)
+                     : "Contact: nothing touches at the end of the run");
   if (results.has_ledger)
-    progress.say(fmt::format("Energy ledger open by {:.2e} at most; momentum drift {:.2e} linear, {:.2e} angular",
-                             results.max_ledger_residual, results.max_linear_drift, results.max_angular_drift));
+    progress.say(
+        fmt::format("Energy ledger open by {:.2e} at most; momentum drift {:.2e} linear, {:.2e} angular",
+                    results.max_ledger_residual, results.max_linear_drift, results.max_angular_drift));
   for (const ErrorRow &row : results.errors)
-    progress.say(fmt::format("{:<52} {:>14.7g}  exact {:>14.7g}  error {:+.3e}", row.quantity, row.computed, row.exact,
-                             row.relative_error));
+    progress.say(fmt::format("{:<52} {:>14.7g}  exact {:>14.7g}  error {:+.3e}", row.quantity, row.computed,
+                             row.exact, row.relative_error));
   double named = 0.;
   for (const auto &[name, seconds] : results.run_time)
   {
-    progress.say(fmt::format("{:<26} {:9.2f} s  {:5.1f} %", name, seconds, 100. * seconds / results.total_run_time));
+    progress.say(
+        fmt::format("{:<26} {:9.2f} s  {:5.1f} %", name, seconds, 100. * seconds / results.total_run_time));
     named += seconds;
   }
   progress.say(fmt::format("{:<26} {:9.2f} s  {:5.1f} %", "everything else", results.total_run_time - named,

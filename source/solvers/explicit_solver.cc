@@ -10,15 +10,12 @@ namespace signorini
 template <int dim>
 ExplicitSolver<dim>::ExplicitSolver(const Discretization<dim> &the_discretization,
                                     const SupportedDofs<dim> &supported_dofs,
-                                    const std::vector<MaterialParameters> &the_materials, SceneForces<dim> &the_forces,
+                                    const std::vector<MaterialParameters> &the_materials,
+                                    SceneForces<dim> &the_forces,
                                     const ExplicitParameters &explicit_parameters, RunTime &the_run_time)
-  : discretization(&the_discretization)
-  , supports(&supported_dofs)
-  , materials(&the_materials)
-  , forces(&the_forces)
-  , parameters(explicit_parameters)
-  , run_time(&the_run_time)
-  , mass(make_lumped_mass(the_materials, the_discretization))
+    : discretization(&the_discretization), supports(&supported_dofs), materials(&the_materials),
+      forces(&the_forces), parameters(explicit_parameters), run_time(&the_run_time),
+      mass(make_lumped_mass(the_materials, the_discretization))
 {
   for (Vector *vector : {&force, &load_force, &damping_force, &one_damping_force, &external_force, &old_force,
                          &old_load_force, &old_damping_force})
@@ -67,8 +64,8 @@ double ExplicitSolver<dim>::stable_step() const
   const double bulk = parameters.bulk_step_factor * critical_time_step(bulk_frequency_squared, 0.);
   if (contact_bound.frequency_squared == 0.)
     return bulk;
-  const double with_contact =
-    critical_time_step(bulk_frequency_squared + contact_bound.frequency_squared, contact_bound.damping_rate);
+  const double with_contact = critical_time_step(bulk_frequency_squared + contact_bound.frequency_squared,
+                                                 contact_bound.damping_rate);
   return std::min(bulk, parameters.contact_step_factor * with_contact);
 }
 
@@ -146,7 +143,7 @@ void ExplicitSolver<dim>::step(double time_step, State &state)
   supports->impose(state.time, state.displacement);
   for (const unsigned int dof : supports->owned_dofs())
     state.velocity.local_element(dof) =
-      (state.displacement.local_element(dof) - old_displacement.local_element(dof)) / time_step;
+        (state.displacement.local_element(dof) - old_displacement.local_element(dof)) / time_step;
   discretization->distribute(state.displacement);
   discretization->distribute(state.velocity);
 
@@ -196,14 +193,16 @@ void ExplicitSolver<dim>::book_supports(const State &state, double time_step)
   Vector impulse = discretization->make_vector(), other_impulse = discretization->make_vector();
   for (const unsigned int i : supports->owned_dofs())
   {
-    const double m = mass.local_element(i), v = state.velocity.local_element(i), v_old = old_velocity.local_element(i);
+    const double m = mass.local_element(i), v = state.velocity.local_element(i),
+                 v_old = old_velocity.local_element(i);
     work += 0.5 * m * (v * v - v_old * v_old) -
             0.5 * (old_force.local_element(i) + force.local_element(i)) * increment.local_element(i);
   }
   // A support that moves its node along turns the momentum of the node's free components with it.
   for (const unsigned int i : dofs_of_supported_nodes)
   {
-    const double m = mass.local_element(i), v = state.velocity.local_element(i), v_old = old_velocity.local_element(i);
+    const double m = mass.local_element(i), v = state.velocity.local_element(i),
+                 v_old = old_velocity.local_element(i);
     impulse.local_element(i) = m * v - 0.5 * time_step * force.local_element(i);
     other_impulse.local_element(i) = -m * v_old - 0.5 * time_step * old_force.local_element(i);
   }
@@ -222,7 +221,8 @@ void ExplicitSolver<dim>::take_stock(const State &state)
 {
   double twice_kinetic = 0.;
   for (unsigned int i = 0; i < mass.locally_owned_size(); ++i)
-    twice_kinetic += mass.local_element(i) * state.velocity.local_element(i) * state.velocity.local_element(i);
+    twice_kinetic +=
+        mass.local_element(i) * state.velocity.local_element(i) * state.velocity.local_element(i);
   energy_ledger.kinetic = 0.5 * dealii::Utilities::MPI::sum(twice_kinetic, discretization->communicator());
   energy_ledger.elastic = forces->elasticity->energy();
   energy_ledger.contact = 0.;

@@ -108,9 +108,9 @@ class AmgSolver : public LinearSolver
 {
 public:
   AmgSolver(unsigned int n_displacement_components, double tolerance)
-    : n_components(n_displacement_components)
-    , relative_tolerance(tolerance)
-  {}
+      : n_components(n_displacement_components), relative_tolerance(tolerance)
+  {
+  }
 
   unsigned int solve(const dealii::TrilinosWrappers::SparseMatrix &matrix,
                      const dealii::TrilinosWrappers::MPI::Vector &right_hand_side,
@@ -133,8 +133,8 @@ public:
                                                "symmetric-SOR/Jacobi");
                           PCSetFromOptions(multigrid);
                         }))
-      throw NumericalError("conjugate gradients did not reach their tolerance in " + std::to_string(n_iterations) +
-                           " iterations");
+      throw NumericalError("conjugate gradients did not reach their tolerance in " +
+                           std::to_string(n_iterations) + " iterations");
     return static_cast<unsigned int>(n_iterations);
   }
   std::string name() const override { return "conjugate gradients with BoomerAMG"; }

@@ -25,17 +25,12 @@ QuasiStaticSolver<dim>::QuasiStaticSolver(const Discretization<dim> &the_discret
                                           const std::vector<MaterialParameters> &the_materials,
                                           const std::vector<bool> &is_body_held, SceneForces<dim> &the_forces,
                                           const SurfaceMap<dim> *surface_map,
-                                          const QuasiStaticParameters &quasi_static_parameters, RunTime &the_run_time)
-  : discretization(&the_discretization)
-  , supports(&supported_dofs)
-  , materials(&the_materials)
-  , forces(&the_forces)
-  , map(surface_map)
-  , parameters(quasi_static_parameters)
-  , run_time(&the_run_time)
-  , residual(the_discretization.make_vector())
-  , support_forces(the_discretization.make_vector())
-  , regularization(the_discretization.make_vector())
+                                          const QuasiStaticParameters &quasi_static_parameters,
+                                          RunTime &the_run_time)
+    : discretization(&the_discretization), supports(&supported_dofs), materials(&the_materials),
+      forces(&the_forces), map(surface_map), parameters(quasi_static_parameters), run_time(&the_run_time),
+      residual(the_discretization.make_vector()), support_forces(the_discretization.make_vector()),
+      regularization(the_discretization.make_vector())
 {
   terms.push_back(forces->elasticity);
   terms.insert(terms.end(), forces->loads.begin(), forces->loads.end());
@@ -43,8 +38,8 @@ QuasiStaticSolver<dim>::QuasiStaticSolver(const Discretization<dim> &the_discret
 
   const unsigned int n_dofs = discretization->dof_handler.n_dofs();
   const bool is_direct = parameters.linear_solver == QuasiStaticParameters::LinearSolver::automatic
-                           ? n_dofs <= (dim == 2 ? max_n_dofs_direct_2d : max_n_dofs_direct_3d)
-                           : parameters.linear_solver == QuasiStaticParameters::LinearSolver::direct;
+                             ? n_dofs <= (dim == 2 ? max_n_dofs_direct_2d : max_n_dofs_direct_3d)
+                             : parameters.linear_solver == QuasiStaticParameters::LinearSolver::direct;
   linear_solver = is_direct ? make_direct_solver() : make_amg_solver(dim, 1e-8);
 
   std::vector<double> volume(materials->size(), 0.);
@@ -56,7 +51,8 @@ QuasiStaticSolver<dim>::QuasiStaticSolver(const Discretization<dim> &the_discret
     if (!is_body_held[node.body])
       for (const unsigned int dof : node.dofs)
         regularization.local_element(dof) = 1e-6 * (*materials)[node.body].youngs_modulus *
-                                            std::pow(volume[node.body], -2. / dim) * nodal_volume.local_element(dof);
+                                            std::pow(volume[node.body], -2. / dim) *
+                                            nodal_volume.local_element(dof);
   if (map)
   {
     longest_step = std::numeric_limits<double>::max();
@@ -75,7 +71,8 @@ unsigned int QuasiStaticSolver<dim>::n_searches() const
 }
 
 template <int dim>
-bool QuasiStaticSolver<dim>::solve(double time, State &state, const std::function<void(const NewtonReport &)> &report)
+bool QuasiStaticSolver<dim>::solve(double time, State &state,
+                                   const std::function<void(const NewtonReport &)> &report)
 {
   const State before = state;
   if (iterate(time, state, report))
@@ -135,12 +132,11 @@ double QuasiStaticSolver<dim>::relative_residual(const State &state)
   double largest = 0.;
   for (unsigned int body = 0; body < norms.size(); ++body)
   {
-    // A body without stress has no forces but round-off, whose share must not be judged.
-    const double floor = 4. * std::numeric_limits<double>::epsilon() * round_off[body] / parameters.tolerance;
-    const double relative = norms[body] / std::max(scales[body], floor);
-    if (!std::isfinite(relative))
+    if (!std::isfinite(norms[body] + scales[body]))
       return std::numeric_limits<double>::quiet_NaN();
-    largest = std::max(largest, relative);
+    // A body without stress has no forces but round-off, which is not to be judged.
+    if (norms[body] > 4. * std::numeric_limits<double>::epsilon() * round_off[body])
+      largest = std::max(largest, norms[body] / scales[body]);
   }
   return largest;
 }
@@ -154,7 +150,7 @@ double QuasiStaticSolver<dim>::compute_round_off(const State &state) const
   for (const OwnedNode<dim> &node : discretization->owned_nodes)
     for (unsigned int d = 0; d < dim; ++d)
       stiffness.local_element(node.dofs[d]) *=
-        node.position[d] + state.displacement.local_element(node.dofs[d]);
+          node.position[d] + state.displacement.local_element(node.dofs[d]);
   const std::vector<double> round_off = body_norms(stiffness);
   double largest = 0.;
   for (unsigned int body = 0; body < scales.size(); ++body)
@@ -201,11 +197,11 @@ template <int dim>
 void QuasiStaticSolver<dim>::rebuild_matrix()
 {
   dealii::TrilinosWrappers::SparsityPattern pattern(
-    discretization->owned_dofs, discretization->owned_dofs,
-    map ? map->relevant_dofs() : discretization->relevant_dofs, discretization->communicator());
+      discretization->owned_dofs, discretization->owned_dofs,
+      map ? map->relevant_dofs() : discretization->relevant_dofs, discretization->communicator());
   dealii::DoFTools::make_sparsity_pattern(
-    discretization->dof_handler, pattern, constraints, false,
-    dealii::Utilities::MPI::this_mpi_process(discretization->communicator()));
+      discretization->dof_handler, pattern, constraints, false,
+      dealii::Utilities::MPI::this_mpi_process(discretization->communicator()));
   for (const auto &term : terms)
     term->add_couplings(constraints, pattern);
   for (const dealii::types::global_dof_index dof : discretization->unused_dofs)
@@ -265,9 +261,9 @@ double QuasiStaticSolver<dim>::limit_of_step(const Vector &increment) const
 template <int dim>
 double QuasiStaticSolver<dim>::search_along(const Vector &increment, State &state)
 {
-  // Approximate Wolfe conditions (W. W. Hager, H. Zhang, 2005): the energy decides until it drowns in round-off,
-  // then the slope does.
-  // Where the tangent is indefinite Newton's direction may lead uphill: then its opposite leads down.
+  // Approximate Wolfe conditions (W. W. Hager, H. Zhang, 2005): the energy decides until it drowns in
+  // round-off, then the slope does. Where the tangent is indefinite Newton's direction may lead uphill: then
+  // its opposite leads down.
   const double newton_slope = -(residual * increment);
   const double direction = newton_slope > 0. ? -1. : 1.;
   const double slope = direction * newton_slope;
@@ -321,7 +317,8 @@ bool QuasiStaticSolver<dim>::has_converged(const State &state, double error, dou
     tolerance = std::max(tolerance, compute_round_off(state));
   if (error > tolerance)
     return false;
-  // Points of integration follow the bodies: what was found with the old ones must be an equilibrium with the new.
+  // Points of integration follow the bodies: what was found with the old ones must be an equilibrium with the
+  // new.
   for (const auto &term : terms)
     term->renew(state);
   return relative_residual(state) <= 10. * tolerance;
@@ -335,6 +332,7 @@ bool QuasiStaticSolver<dim>::iterate(double time, State &state,
     term->renew(state);
   Vector increment = discretization->make_vector();
   NewtonReport progress;
+  progress.residual = std::numeric_limits<double>::max();
   try
   {
     move_supports(time, state);
@@ -349,7 +347,7 @@ bool QuasiStaticSolver<dim>::iterate(double time, State &state,
         return true;
       if (progress.iteration == parameters.max_iterations)
         throw NumericalError(
-          fmt::format("Newton's method only reached a relative residual of {:.3g}", progress.residual));
+            fmt::format("Newton's method only reached a relative residual of {:.3g}", progress.residual));
       progress.linear_iterations = compute_increment(DrivenBy::residual, increment);
       progress.step_length = search_along(increment, state);
       if (progress.step_length == 0.)

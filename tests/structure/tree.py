@@ -2,7 +2,7 @@
 """The files of the repository, as the structure tests see them. No git: a copy without history is tested as well."""
 import pathlib
 
-OUTSIDE = {"build", "output", ".git", "__pycache__"}
+OUTSIDE = {"build", "output", ".git"}  # at the root
 
 
 def files(root, *folders):
@@ -10,7 +10,8 @@ def files(root, *folders):
     found = []
     for folder in [root / name for name in folders] or [root]:
         for path in sorted(folder.rglob("*")):
-            if path.is_file() and not OUTSIDE & set(path.relative_to(root).parts):
+            parts = path.relative_to(root).parts
+            if path.is_file() and parts[0] not in OUTSIDE and "__pycache__" not in parts:
                 found.append(path)
     return found
 

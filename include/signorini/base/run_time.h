@@ -7,7 +7,8 @@
 
 namespace signorini
 {
-/// Wall-clock time by section. A section that is never entered does not appear. This rank only, no communication.
+/// Wall-clock time by section. A section that is never entered does not appear. This rank only, no
+/// communication.
 class RunTime
 {
 public:
@@ -15,7 +16,10 @@ public:
   class Section
   {
   public:
-    explicit Section(double &time_of_section) : seconds(time_of_section), start(std::chrono::steady_clock::now()) {}
+    explicit Section(double &time_of_section)
+        : seconds(time_of_section), start(std::chrono::steady_clock::now())
+    {
+    }
     ~Section() { seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(); }
     Section(const Section &) = delete;
     Section &operator=(const Section &) = delete;
@@ -31,7 +35,10 @@ public:
   const std::map<std::string, double> &sections() const { return all; }
 
   /// Since this object was made [s].
-  double total() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(); }
+  double total() const
+  {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  }
 
 private:
   std::map<std::string, double> all;

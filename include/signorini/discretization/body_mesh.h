@@ -10,8 +10,9 @@
 
 namespace signorini
 {
-/// The coarse hexahedral (quadrilateral) mesh of one body in its own coordinates. Faces carry the index of their
-/// boundary's name in boundary_names() as boundary id; curved faces carry manifold id 0, all else is flat.
+/// The coarse hexahedral (quadrilateral) mesh of one body in its own coordinates. Faces carry the index of
+/// their boundary's name in boundary_names() as boundary id; curved faces carry manifold id 0, all else is
+/// flat.
 template <int dim>
 void make_coarse_body_mesh(const MeshParameters &parameters, dealii::Triangulation<dim> &mesh);
 

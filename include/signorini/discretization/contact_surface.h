@@ -17,13 +17,14 @@ struct Facet
 {
   static constexpr unsigned int max_n_nodes = (dim == 2 ? 3 : 9);
 
-  std::array<unsigned int, max_n_nodes> nodes{}; ///< indices into the surface's nodes; the first n_nodes count
-  unsigned int degree = 1;                       ///< polynomial degree, 1 or 2
-  unsigned int body = 0;                         ///< index of the body it belongs to
-  bool owned = true;                             ///< whether this rank integrates over it
-  double layer_thickness = 0.;                   ///< h: size of the element behind the face, along its normal [m]
-  double youngs_modulus = 0.;                    ///< E of that element [Pa]
-  double density = 0.;                           ///< ρ of that element [kg/m³]
+  std::array<unsigned int, max_n_nodes>
+      nodes{};                 ///< indices into the surface's nodes; the first n_nodes count
+  unsigned int degree = 1;     ///< polynomial degree, 1 or 2
+  unsigned int body = 0;       ///< index of the body it belongs to
+  bool owned = true;           ///< whether this rank integrates over it
+  double layer_thickness = 0.; ///< h: size of the element behind the face, along its normal [m]
+  double youngs_modulus = 0.;  ///< E of that element [Pa]
+  double density = 0.;         ///< ρ of that element [kg/m³]
 
   unsigned int n_nodes() const { return dim == 2 ? degree + 1 : (degree + 1) * (degree + 1); }
 };

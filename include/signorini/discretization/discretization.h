@@ -45,8 +45,8 @@ public:
   /// Sets hanging degrees of freedom to their interpolated values and updates ghosts.
   void distribute(Vector &values) const;
 
-  /// Turns forces added cell by cell on local and ghost entries into forces on their owners' free degrees of freedom:
-  /// the transpose of distribute().
+  /// Turns forces added cell by cell on local and ghost entries into forces on their owners' free degrees of
+  /// freedom: the transpose of distribute().
   void collect(Vector &forces) const;
 
   std::unique_ptr<dealii::parallel::distributed::Triangulation<dim>> mesh;
@@ -61,8 +61,8 @@ public:
   CellTable<dim> cells;
   std::vector<OwnedNode<dim>> owned_nodes;
 
-  /// Owned degrees of freedom without a cell: deal.II 9.4 numbers a few of them on the borders between ranks of meshes
-  /// with hanging nodes. They mean nothing and must not reach a linear solver.
+  /// Owned degrees of freedom without a cell: deal.II 9.4 numbers a few of them on the borders between ranks
+  /// of meshes with hanging nodes. They mean nothing and must not reach a linear solver.
   std::vector<dealii::types::global_dof_index> unused_dofs;
 
   /// Degrees of freedom of all ranks that have a cell.

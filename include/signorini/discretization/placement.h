@@ -18,7 +18,10 @@ public:
 
   dealii::Point<dim> place(const dealii::Point<dim> &own) const;
   dealii::Point<dim> own_coordinates(const dealii::Point<dim> &placed) const;
-  dealii::Tensor<1, dim> rotate(const dealii::Tensor<1, dim> &direction) const { return rotation * direction; }
+  dealii::Tensor<1, dim> rotate(const dealii::Tensor<1, dim> &direction) const
+  {
+    return rotation * direction;
+  }
 
 private:
   dealii::Tensor<2, dim> rotation;

@@ -15,8 +15,8 @@ dealii::types::boundary_id global_boundary_id(unsigned int body, unsigned int lo
 /// Body of a boundary id made by global_boundary_id(), and its index within that body.
 std::pair<unsigned int, unsigned int> split_boundary_id(dealii::types::boundary_id id);
 
-/// All bodies of a scene in one distributed mesh. Bodies share no vertex, touching or not; a cell's material id is
-/// the index of its body. Curved boundaries stay on their manifolds under refinement; grading is done.
+/// All bodies of a scene in one distributed mesh. Bodies share no vertex, touching or not; a cell's material
+/// id is the index of its body. Curved boundaries stay on their manifolds under refinement; grading is done.
 template <int dim>
 std::unique_ptr<dealii::parallel::distributed::Triangulation<dim>>
 make_scene_mesh(const std::vector<BodyParameters> &bodies, const MPI_Comm &communicator);

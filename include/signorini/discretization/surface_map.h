@@ -26,10 +26,13 @@ public:
   void add_to_owners(const std::vector<SpatialVector<dim>> &nodal_forces, Vector &forces) const;
 
   /// Global degrees of freedom of a surface node.
-  const std::array<dealii::types::global_dof_index, dim> &node_dofs(unsigned int node) const { return dofs[node]; }
+  const std::array<dealii::types::global_dof_index, dim> &node_dofs(unsigned int node) const
+  {
+    return dofs[node];
+  }
 
-  /// Adds the constraints of surface nodes that this rank has no cell at, so that contact with them can be assembled
-  /// here. `constraints` must have been made for relevant_dofs().
+  /// Adds the constraints of surface nodes that this rank has no cell at, so that contact with them can be
+  /// assembled here. `constraints` must have been made for relevant_dofs().
   void add_remote_hanging_constraints(dealii::AffineConstraints<double> &constraints) const;
 
   /// Relevant to this rank's cells, or of the surface, or a master of such.

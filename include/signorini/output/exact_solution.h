@@ -5,8 +5,8 @@
 
 namespace signorini
 {
-/// Compares a run with the exact solution that its parameters name. One function a case, in the table of the source
-/// file; formulas in doc/theory.md.
+/// Compares a run with the exact solution that its parameters name. One function a case, in the table of the
+/// source file; formulas in doc/theory.md.
 template <int dim>
 std::vector<ErrorRow> compute_errors(const Results<dim> &results);
 

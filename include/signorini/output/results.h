@@ -56,7 +56,7 @@ struct Results
   double memory_peak_mb = 0.;
 
   bool has_contact = false;
-  contact::ContactMeasures<dim> contact; ///< of all contact terms at the end
+  contact::ContactMeasures<dim> contact;      ///< of all contact terms at the end
   double max_penetration_over_thickness = 0.; ///< of the whole run
   unsigned int max_n_pairs = 0;
   std::vector<contact::ContactSample<dim>> samples;
@@ -76,7 +76,7 @@ struct Results
   Eigen::Matrix3d largest_stress = Eigen::Matrix3d::Zero();
   std::vector<HistoryRow> history;
   double largest_support_displacement = 0.;
-  std::array<double, 3> total_load{}; ///< resultant of the loads at the end [N]
+  std::array<double, 3> total_load{};                       ///< resultant of the loads at the end [N]
   std::vector<std::array<double, 3>> body_end_displacement; ///< largest displacement by component [m]
   std::vector<ErrorRow> errors;
 };

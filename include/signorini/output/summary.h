@@ -12,7 +12,8 @@ template <int dim>
 void write_summary(const Results<dim> &results, const std::string &input, unsigned int n_ranks,
                    const std::string &directory);
 
-/// Writes profile.csv: radius, pressure and exact pressure of every sampled point, for exact solutions with a profile.
+/// Writes profile.csv: radius, pressure and exact pressure of every sampled point, for exact solutions with a
+/// profile.
 template <int dim>
 void write_profile(const Results<dim> &results, const std::string &directory);
 } // namespace signorini

@@ -9,17 +9,18 @@
 #include <variant>
 #include <vector>
 
-/// Plain structs, one a subsection of the parameter file, filled and checked by read_parameters(). Vectors have three
-/// components always; in two dimensions the third is zero. Units are SI or any other consistent set.
+/// Plain structs, one a subsection of the parameter file, filled and checked by read_parameters(). Vectors
+/// have three components always; in two dimensions the third is zero. Units are SI or any other consistent
+/// set.
 namespace signorini
 {
 using Triple = std::array<double, 3>;
 
 /// `subsection Mesh` of a body: a generated hexahedral (quadrilateral) mesh.
 ///
-/// Boundaries are named after the shape: box: left, right (−x, +x), front, back (−y, +y; in 2-D bottom, top are −y, +y),
-/// bottom, top (−z, +z). ball: surface, and for parts of a ball x, y, z for the cuts x = 0, y = 0, z = 0.
-/// cylinder (axis z; 3-D only): side, bottom, top.
+/// Boundaries are named after the shape: box: left, right (−x, +x), front, back (−y, +y; in 2-D bottom, top
+/// are −y, +y), bottom, top (−z, +z). ball: surface, and for parts of a ball x, y, z for the cuts x = 0, y =
+/// 0, z = 0. cylinder (axis z; 3-D only): side, bottom, top.
 struct MeshParameters
 {
   enum class Shape
@@ -38,28 +39,28 @@ struct MeshParameters
   /// Cells near a point (or within a distance of a face's plane) are refined further.
   struct Grading
   {
-    Triple point{};          ///< centre of refinement, in the body's own coordinates before placement [m]
+    Triple point{}; ///< centre of refinement, in the body's own coordinates before placement [m]
     std::optional<std::string> boundary; ///< instead of a point: refine towards the boundary of this name
-    double distance = 0.;    ///< cells nearer than this get all levels [m]
+    double distance = 0.;                ///< cells nearer than this get all levels [m]
     unsigned int levels = 0; ///< additional refinements there; each level less doubles the distance
   };
 
   Shape shape = Shape::box;
   Part part = Part::whole;
-  Triple lower_corner{};                       ///< box [m]
-  Triple upper_corner{1., 1., 1.};             ///< box [m]
-  std::array<unsigned int, 3> cells{1, 1, 1};  ///< box: coarse cells a direction
-  double radius = 1.;                          ///< ball, cylinder [m]
-  double length = 1.;                          ///< cylinder [m]
-  unsigned int refinements = 0;                ///< global refinements of the coarse mesh
+  Triple lower_corner{};                      ///< box [m]
+  Triple upper_corner{1., 1., 1.};            ///< box [m]
+  std::array<unsigned int, 3> cells{1, 1, 1}; ///< box: coarse cells a direction
+  double radius = 1.;                         ///< ball, cylinder [m]
+  double length = 1.;                         ///< cylinder [m]
+  unsigned int refinements = 0;               ///< global refinements of the coarse mesh
   std::optional<Grading> grading;
 };
 
 /// `subsection Placement` of a body: x ← shift + rotation·(scale·x).
 struct PlacementParameters
 {
-  Triple shift{};                 ///< [m]
-  double rotation_angle = 0.;     ///< [degrees]
+  Triple shift{};             ///< [m]
+  double rotation_angle = 0.; ///< [degrees]
   Triple rotation_axis{0., 0., 1.};
   double scale = 1.;
 };
@@ -78,7 +79,8 @@ struct MaterialParameters
   double density = 0.;        ///< ρ > 0 [kg/m³]
 };
 
-/// `subsection Support NAME` of a body: prescribed displacement on the boundary NAME; a component left out is free.
+/// `subsection Support NAME` of a body: prescribed displacement on the boundary NAME; a component left out is
+/// free.
 struct SupportParameters
 {
   std::string boundary;
@@ -102,7 +104,7 @@ struct BodyParameters
   PlacementParameters placement;
   MaterialParameters material;
   Triple initial_velocity{}; ///< [m/s]
-  Triple initial_spin{};     ///< angular velocity about the centre of mass; in 2-D only the third counts [rad/s]
+  Triple initial_spin{}; ///< angular velocity about the centre of mass; in 2-D only the third counts [rad/s]
   std::vector<SupportParameters> supports;
   std::vector<LoadParameters> loads;
 };
@@ -117,9 +119,9 @@ struct ObstacleParameters
   };
   std::string name;
   Shape shape = Shape::plane;
-  Triple point{};              ///< a point of the plane, or the centre of the sphere [m]
-  Triple normal{0., 0., 1.};   ///< plane: points to where bodies may be
-  double radius = 1.;          ///< sphere [m]
+  Triple point{};            ///< a point of the plane, or the centre of the sphere [m]
+  Triple normal{0., 0., 1.}; ///< plane: points to where bodies may be
+  double radius = 1.;        ///< sphere [m]
 };
 
 /// `subsection Damping` in `subsection Contact`.
@@ -139,8 +141,9 @@ struct ContactParameters
   };
   double penalty_factor = 10.; ///< α > 0
   Integration integration = Integration::automatic;
-  unsigned int quadrature_points = 3;  ///< a direction
-  std::vector<std::pair<std::string, std::string>> excluded_pairs; ///< names of two bodies, or a body and an obstacle
+  unsigned int quadrature_points = 3; ///< a direction
+  std::vector<std::pair<std::string, std::string>>
+      excluded_pairs; ///< names of two bodies, or a body and an obstacle
   bool allow_initial_overlap = false;
   std::optional<DampingParameters> damping;
 };
@@ -156,19 +159,21 @@ struct QuasiStaticParameters
   };
   double end_time = 1.;
   unsigned int load_steps = 1;
-  double tolerance = 1e-9;           ///< relative residual force of every body
-  unsigned int max_iterations = 50;  ///< of Newton in one load step
-  unsigned int max_bisections = 8;   ///< of a load step that fails
+  double tolerance = 1e-9;          ///< relative residual force of every body
+  unsigned int max_iterations = 50; ///< of Newton in one load step
+  unsigned int max_bisections = 8;  ///< of a load step that fails
   LinearSolver linear_solver = LinearSolver::automatic;
 };
 
 /// `subsection Explicit`.
 struct ExplicitParameters
 {
-  double end_time = 1.;              ///< [s]
-  double bulk_step_factor = 0.9;     ///< share of the linear stability bound of the bodies
-  double contact_step_factor = 0.5;  ///< share of the bound with contact springs: unilateral contact needs less than 1
-  double ledger_tolerance = 0.05;    ///< stop when the energy ledger is open by more, relative to the largest energy
+  double end_time = 1.;          ///< [s]
+  double bulk_step_factor = 0.9; ///< share of the linear stability bound of the bodies
+  double contact_step_factor =
+      0.5; ///< share of the bound with contact springs: unilateral contact needs less than 1
+  double ledger_tolerance =
+      0.05; ///< stop when the energy ledger is open by more, relative to the largest energy
 };
 
 /// `subsection Exact solution`: what the run is measured against.
@@ -181,16 +186,16 @@ struct ExactSolutionParameters
 /// `subsection Output`.
 struct OutputParameters
 {
-  std::string directory;             ///< default: output/NAME of the parameter file
-  unsigned int n_fields = 10;        ///< how many VTU files a run writes, beside the first
-  unsigned int n_statistics = 200;   ///< about how many rows of statistics.csv an explicit run writes
+  std::string directory;           ///< default: output/NAME of the parameter file
+  unsigned int n_fields = 10;      ///< how many VTU files a run writes, beside the first
+  unsigned int n_statistics = 200; ///< about how many rows of statistics.csv an explicit run writes
 };
 
 struct Parameters
 {
   unsigned int dimension = 3;
-  unsigned int degree = 1;     ///< of all elements, 1 or 2
-  Triple gravity{};            ///< [m/s²]
+  unsigned int degree = 1; ///< of all elements, 1 or 2
+  Triple gravity{};        ///< [m/s²]
   std::vector<BodyParameters> bodies;
   std::vector<ObstacleParameters> obstacles;
   std::optional<ContactParameters> contact;

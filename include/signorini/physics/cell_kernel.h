@@ -24,7 +24,9 @@ template <int dim, typename Law>
 class CellKernel
 {
 public:
-  CellKernel(const Law &material_law, unsigned int degree) : law(material_law), uses_mean_volume(degree == 1) {}
+  CellKernel(const Law &material_law, unsigned int degree) : law(material_law), uses_mean_volume(degree == 1)
+  {
+  }
 
   /// `u`: [node][component].
   double energy(const CellGeometry &cell, const double *u);

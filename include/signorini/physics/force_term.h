@@ -31,16 +31,15 @@ public:
   };
 
   ForceTerm(std::string term_name, Kind term_kind, bool is_an_external_term)
-    : name(std::move(term_name))
-    , kind(term_kind)
-    , is_external(is_an_external_term)
-  {}
+      : name(std::move(term_name)), kind(term_kind), is_external(is_an_external_term)
+  {
+  }
   virtual ~ForceTerm() = default;
   ForceTerm(const ForceTerm &) = delete;
   ForceTerm &operator=(const ForceTerm &) = delete;
 
-  /// Renews what is kept from earlier states, such as neighbours (collective). Returns by how much the energy at
-  /// this very state changed by it [J].
+  /// Renews what is kept from earlier states, such as neighbours (collective). Returns by how much the energy
+  /// at this very state changed by it [J].
   virtual double renew(const State &) { return 0.; }
 
   /// How often neighbours were searched, also within update(): couplings may differ after each.
@@ -56,8 +55,10 @@ public:
   virtual void add_force(Vector &force) const = 0;
 
   /// Adds the couplings of the tangent beyond those within cells.
-  virtual void add_couplings(const dealii::AffineConstraints<double> &, dealii::TrilinosWrappers::SparsityPattern &) const
-  {}
+  virtual void add_couplings(const dealii::AffineConstraints<double> &,
+                             dealii::TrilinosWrappers::SparsityPattern &) const
+  {
+  }
 
   /// Adds the Hessian of the energy.
   virtual void add_tangent(TangentSystem &) const {}

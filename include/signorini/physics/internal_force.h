@@ -26,8 +26,8 @@ public:
   /// Calls `visit(cell, tangent)` with the row-major tangent of every own cell.
   void for_each_tangent(const std::function<void(unsigned int, const std::vector<double> &)> &visit) const;
 
-  /// Adds to every local and ghost entry the sum of the magnitudes that its force is the small difference of: what
-  /// round-off is relative to [N].
+  /// Adds to every local and ghost entry the sum of the magnitudes that its force is the small difference of:
+  /// what round-off is relative to [N].
   void add_magnitudes(Vector &magnitudes) const;
 
   /// Mean true stress of every own cell [Pa].
@@ -42,7 +42,7 @@ private:
 
   const Discretization<dim> *discretization;
   const Vector *displacement = nullptr;
-  std::vector<double> moduli; ///< of compression without widening, κ + 4μ/3, one a body [Pa]
+  std::vector<double> moduli;          ///< of compression without widening, κ + 4μ/3, one a body [Pa]
   mutable std::vector<Kernel> kernels; ///< one a body; mutable for their scratch memory
 };
 } // namespace signorini

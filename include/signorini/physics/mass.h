@@ -5,10 +5,11 @@
 
 namespace signorini
 {
-/// Lumped mass of every degree of freedom [kg; kg/m in 2-D]: the nodal quadrature rule, hanging nodes shared among
-/// their masters. Positive for degrees 1 and 2.
+/// Lumped mass of every degree of freedom [kg; kg/m in 2-D]: the nodal quadrature rule, hanging nodes shared
+/// among their masters. Positive for degrees 1 and 2.
 template <int dim>
-Vector make_lumped_mass(const std::vector<MaterialParameters> &materials, const Discretization<dim> &discretization);
+Vector make_lumped_mass(const std::vector<MaterialParameters> &materials,
+                        const Discretization<dim> &discretization);
 
 /// Volume [m³; m² in 2-D] that every degree of freedom stands for, by the same rule.
 template <int dim>

@@ -5,17 +5,18 @@
 
 namespace signorini
 {
-/// Laws in two parts, ψ(H) = ψ_shape(H) + U(v(H)), of the displacement gradient H_ij = ∂u_i/∂X_j: one of the change of
-/// shape, one of the volume ratio v. Elements of degree 1 take v as its mean over the cell, which keeps them from
-/// locking; the energy stays an energy. In 2-D the strain is plane: H_33 = 0 in formulas of three dimensions.
+/// Laws in two parts, ψ(H) = ψ_shape(H) + U(v(H)), of the displacement gradient H_ij = ∂u_i/∂X_j: one of the
+/// change of shape, one of the volume ratio v. Elements of degree 1 take v as its mean over the cell, which
+/// keeps them from locking; the energy stays an energy. In 2-D the strain is plane: H_33 = 0 in formulas of
+/// three dimensions.
 ///
 /// Index pairs (i, j) are stored as i·dim + j.
 template <int dim>
 struct ShapeResponse
 {
-  double energy = 0.;                                   ///< ψ_shape [J/m³]
-  Eigen::Matrix<double, dim * dim, 1> stress;           ///< ∂ψ_shape/∂H [Pa]
-  Eigen::Matrix<double, dim * dim, dim * dim> tangent;  ///< ∂²ψ_shape/∂H∂H [Pa]; only if asked for
+  double energy = 0.;                                  ///< ψ_shape [J/m³]
+  Eigen::Matrix<double, dim * dim, 1> stress;          ///< ∂ψ_shape/∂H [Pa]
+  Eigen::Matrix<double, dim * dim, dim * dim> tangent; ///< ∂²ψ_shape/∂H∂H [Pa]; only if asked for
 };
 
 /// v, ∂v/∂H and ∂²v/∂H∂H.

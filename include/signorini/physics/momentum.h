@@ -16,8 +16,8 @@ struct VectorAndMoment
   double moment_scale = 0.; ///< sum of |x|·(nodal magnitude)
 };
 
-/// Sums a nodal quantity q over all ranks: Σ q and Σ x×q, with x = X + u the nodes' positions. With forces: their
-/// resultant. With `mass`, q = m v: the momenta.
+/// Sums a nodal quantity q over all ranks: Σ q and Σ x×q, with x = X + u the nodes' positions. With forces:
+/// their resultant. With `mass`, q = m v: the momenta.
 template <int dim>
 VectorAndMoment sum_over_nodes(const Discretization<dim> &discretization, const Vector &displacement,
                                const Vector &nodal, const Vector *mass = nullptr);

@@ -30,7 +30,7 @@ struct Load
 {
   unsigned int body = 0;
   std::string boundary;
-  unsigned int boundary_id = 0; ///< index of its name among those of the body's boundaries
+  unsigned int boundary_id = 0;     ///< index of its name among those of the body's boundaries
   std::vector<Expression> traction; ///< dim components [Pa]
   std::string description;          ///< for messages
 };
@@ -53,7 +53,8 @@ struct Scene
 
 /// Value of a formula at a point and a time. Throws InputError, with `description`, if it is not finite.
 template <int dim>
-double evaluate(const Expression &expression, const std::string &description, const dealii::Point<dim> &x, double t);
+double evaluate(const Expression &expression, const std::string &description, const dealii::Point<dim> &x,
+                double t);
 
 template <int dim>
 Scene<dim> make_scene(const Parameters &parameters);

@@ -7,8 +7,8 @@
 
 namespace signorini
 {
-/// Whether the supports of each body leave no rigid motion free: the Gram matrix of its rigid motions at the supported
-/// degrees of freedom has full rank.
+/// Whether the supports of each body leave no rigid motion free: the Gram matrix of its rigid motions at the
+/// supported degrees of freedom has full rank.
 template <int dim>
 std::vector<bool> find_held_bodies(const Scene<dim> &scene, const SupportedDofs<dim> &supports);
 

@@ -7,7 +7,7 @@
 
 namespace signorini
 {
-/// Reads the parameter file of a command line, checks it, and runs it unless only validation is asked for. Collective.
-/// Throws InputError, NumericalError and FileError, the same on all ranks.
+/// Reads the parameter file of a command line, checks it, and runs it unless only validation is asked for.
+/// Collective. Throws InputError, NumericalError and FileError, the same on all ranks.
 void run(const CommandLine &command_line, const MPI_Comm &communicator);
 } // namespace signorini

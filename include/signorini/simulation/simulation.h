@@ -16,14 +16,15 @@
 
 namespace signorini
 {
-/// Builds everything from the parameters and owns the loop. The only place that sees everything, and the only one that
-/// asks what a scene has: what it has not is not built.
+/// Builds everything from the parameters and owns the loop. The only place that sees everything, and the only
+/// one that asks what a scene has: what it has not is not built.
 template <int dim>
 class Simulation
 {
 public:
   /// `input`: name of the parameter file, for reports. Throws InputError for scenes that cannot be run.
-  Simulation(const Parameters &parameters, const std::string &input, const MPI_Comm &communicator, bool is_quiet);
+  Simulation(const Parameters &parameters, const std::string &input, const MPI_Comm &communicator,
+             bool is_quiet);
 
   /// What would be done, at what size and cost.
   void print_plan();

@@ -16,7 +16,8 @@ namespace signorini
 ///   v_(n+1/2) = v_n + Δt/2 a_n,   u_(n+1) = u_n + Δt v_(n+1/2),   a_(n+1) = M⁻¹ f(u_(n+1), v_(n+1/2)),
 ///   v_(n+1) = v_(n+1/2) + Δt/2 a_(n+1).
 ///
-/// Every force is booked: works and impulses by the trapezoidal rule, which is exact for momenta in this scheme.
+/// Every force is booked: works and impulses by the trapezoidal rule, which is exact for momenta in this
+/// scheme.
 template <int dim>
 class ExplicitSolver
 {

@@ -16,14 +16,16 @@ class LinearSolver
 public:
   virtual ~LinearSolver() = default;
 
-  /// Returns the number of iterations, 1 for direct solvers. Throws NumericalError if it fails (on all ranks).
+  /// Returns the number of iterations, 1 for direct solvers. Throws NumericalError if it fails (on all
+  /// ranks).
   virtual unsigned int solve(const dealii::TrilinosWrappers::SparseMatrix &matrix,
                              const dealii::TrilinosWrappers::MPI::Vector &right_hand_side,
                              dealii::TrilinosWrappers::MPI::Vector &solution) = 0;
   virtual std::string name() const = 0;
 };
 
-/// Sparse symmetric factorisation by MUMPS, through PETSc: Trilinos' interface takes matrices of one rank only.
+/// Sparse symmetric factorisation by MUMPS, through PETSc: Trilinos' interface takes matrices of one rank
+/// only.
 std::unique_ptr<LinearSolver> make_direct_solver();
 
 /// Conjugate gradients with hypre's BoomerAMG, whose iteration counts do not grow with the contact stiffness.

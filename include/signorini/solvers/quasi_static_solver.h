@@ -15,17 +15,17 @@ namespace signorini
 struct NewtonReport
 {
   unsigned int iteration = 0;
-  double residual = 0.;         ///< largest of the bodies' relative residual forces
-  double step_length = 0.;      ///< share of the Newton step taken; 0 before the first
+  double residual = 0.;    ///< largest of the bodies' relative residual forces
+  double step_length = 0.; ///< share of the Newton step taken; 0 before the first
   unsigned int linear_iterations = 0;
 };
 
-/// Finds equilibria: minima of the energy of all force terms under given supports, by Newton's method with the exact
-/// tangent and a line search on the energy.
+/// Finds equilibria: minima of the energy of all force terms under given supports, by Newton's method with
+/// the exact tangent and a line search on the energy.
 ///
-/// A body that its supports leave free to move is held by contact. Where it is not (yet) touching, the tangent is
-/// singular; the tangent alone, not the forces, then gets a diagonal term a millionth as stiff as the body, which bends
-/// the way to the solution but not the solution.
+/// A body that its supports leave free to move is held by contact. Where it is not (yet) touching, the
+/// tangent is singular; the tangent alone, not the forces, then gets a diagonal term a millionth as stiff as
+/// the body, which bends the way to the solution but not the solution.
 template <int dim>
 class QuasiStaticSolver
 {
@@ -33,11 +33,11 @@ public:
   /// The arguments must outlive this object. `map` is null in scenes without contact.
   QuasiStaticSolver(const Discretization<dim> &discretization, const SupportedDofs<dim> &supports,
                     const std::vector<MaterialParameters> &materials, const std::vector<bool> &is_body_held,
-                    SceneForces<dim> &forces, const SurfaceMap<dim> *map, const QuasiStaticParameters &parameters,
-                    RunTime &run_time);
+                    SceneForces<dim> &forces, const SurfaceMap<dim> *map,
+                    const QuasiStaticParameters &parameters, RunTime &run_time);
 
-  /// Moves `state` to the equilibrium at `time`; `report` is called after every iteration. Returns false, with
-  /// `state` as it was, if Newton's method failed; `failure()` then says why.
+  /// Moves `state` to the equilibrium at `time`; `report` is called after every iteration. Returns false,
+  /// with `state` as it was, if Newton's method failed; `failure()` then says why.
   bool solve(double time, State &state, const std::function<void(const NewtonReport &)> &report);
 
   const std::string &failure() const { return reason; }
@@ -66,7 +66,8 @@ private:
   void assemble(DrivenBy cause);
   unsigned int compute_increment(DrivenBy cause, Vector &increment);
   void move_supports(double time, State &state);
-  /// Within the tolerance; or, where the residual stopped falling, within what round-off lets it be evaluated to.
+  /// Within the tolerance; or, where the residual stopped falling, within what round-off lets it be evaluated
+  /// to.
   bool has_converged(const State &state, double error, double error_before);
   double limit_of_step(const Vector &increment) const;
   double search_along(const Vector &increment, State &state);

@@ -26,11 +26,10 @@ ContactForce<dim>::ContactForce(const std::string &term_name, bool is_an_externa
                                 const SurfaceMap<dim> &surface_map,
                                 typename contact::ContactPotential<dim>::Obstacles obstacles,
                                 const contact::PotentialSettings &settings, const MPI_Comm &mpi_communicator)
-  : ForceTerm(term_name, Kind::contact, is_an_external_term)
-  , map(&surface_map)
-  , potential(surface_map.surface(), std::move(obstacles), settings)
-  , communicator(mpi_communicator)
-{}
+    : ForceTerm(term_name, Kind::contact, is_an_external_term), map(&surface_map),
+      potential(surface_map.surface(), std::move(obstacles), settings), communicator(mpi_communicator)
+{
+}
 
 template <int dim>
 std::vector<SpatialVector<dim>> ContactForce<dim>::positions(const State &state) const
@@ -53,7 +52,7 @@ void ContactForce<dim>::update(const State &state)
   const std::vector<SpatialVector<dim>> x = positions(state);
   if (potential.is_stale(x))
   {
-      potential.update(x);
+    potential.update(x);
   }
   potential.evaluate(x);
 }
@@ -86,8 +85,8 @@ void ContactForce<dim>::add_couplings(const dealii::AffineConstraints<double> &c
                                       dealii::TrilinosWrappers::SparsityPattern &pattern) const
 {
   potential.for_each_coupling(
-    [&](const std::vector<unsigned int> &nodes)
-    { constraints.add_entries_local_to_global(collect_dofs(*map, nodes), pattern, false); });
+      [&](const std::vector<unsigned int> &nodes)
+      { constraints.add_entries_local_to_global(collect_dofs(*map, nodes), pattern, false); });
 }
 
 template <int dim>
@@ -96,17 +95,17 @@ void ContactForce<dim>::add_tangent(TangentSystem &system) const
   dealii::FullMatrix<double> matrix;
   dealii::Vector<double> zero;
   potential.for_each_tangent(
-    [&](const std::vector<unsigned int> &nodes, const Eigen::MatrixXd &block)
-    {
-      const unsigned int n = block.rows();
-      matrix.reinit(n, n);
-      zero.reinit(n);
-      for (unsigned int i = 0; i < n; ++i)
-        for (unsigned int j = 0; j < n; ++j)
-          matrix(i, j) = block(i, j);
-      system.constraints->distribute_local_to_global(matrix, zero, collect_dofs(*map, nodes), system.matrix,
-                                                     system.right_hand_side);
-    });
+      [&](const std::vector<unsigned int> &nodes, const Eigen::MatrixXd &block)
+      {
+        const unsigned int n = block.rows();
+        matrix.reinit(n, n);
+        zero.reinit(n);
+        for (unsigned int i = 0; i < n; ++i)
+          for (unsigned int j = 0; j < n; ++j)
+            matrix(i, j) = block(i, j);
+        system.constraints->distribute_local_to_global(matrix, zero, collect_dofs(*map, nodes), system.matrix,
+                                                       system.right_hand_side);
+      });
 }
 
 template <int dim>
@@ -114,7 +113,8 @@ std::vector<SpatialVector<dim>> ContactForce<dim>::nodal_forces() const
 {
   std::vector<SpatialVector<dim>> forces(map->surface().n_nodes(), SpatialVector<dim>::Zero());
   potential.add_forces(forces);
-  MPI_Allreduce(MPI_IN_PLACE, forces.data(), static_cast<int>(dim * forces.size()), MPI_DOUBLE, MPI_SUM, communicator);
+  MPI_Allreduce(MPI_IN_PLACE, forces.data(), static_cast<int>(dim * forces.size()), MPI_DOUBLE, MPI_SUM,
+                communicator);
   return forces;
 }
 
@@ -135,7 +135,8 @@ std::vector<double> ContactForce<dim>::nodal_areas() const
     for (unsigned int i = 0; i < facet.n_nodes(); ++i)
       areas[facet.nodes[i]] += shape.value[i] * sample.full_area;
   }
-  MPI_Allreduce(MPI_IN_PLACE, areas.data(), static_cast<int>(areas.size()), MPI_DOUBLE, MPI_SUM, communicator);
+  MPI_Allreduce(MPI_IN_PLACE, areas.data(), static_cast<int>(areas.size()), MPI_DOUBLE, MPI_SUM,
+                communicator);
   return areas;
 }
 
@@ -165,7 +166,7 @@ contact::ContactMeasures<dim> ContactForce<dim>::measure() const
   const double deepest = max(total.max_penetration_over_thickness, communicator);
   const unsigned int this_rank = dealii::Utilities::MPI::this_mpi_process(communicator);
   const unsigned int deepest_rank =
-    max(total.max_penetration_over_thickness == deepest ? this_rank : 0u, communicator);
+      max(total.max_penetration_over_thickness == deepest ? this_rank : 0u, communicator);
   MPI_Bcast(&total.deepest_facet, 1, MPI_UNSIGNED, static_cast<int>(deepest_rank), communicator);
   MPI_Bcast(total.deepest_position.data(), dim, MPI_DOUBLE, static_cast<int>(deepest_rank), communicator);
   total.max_penetration_over_thickness = deepest;
@@ -175,8 +176,8 @@ contact::ContactMeasures<dim> ContactForce<dim>::measure() const
   total.area = sum(total.area, communicator);
   total.n_pairs = sum(total.n_pairs, communicator);
   total.n_active = sum(total.n_active, communicator);
-  MPI_Allreduce(MPI_IN_PLACE, total.resultants.data(), static_cast<int>(dim * total.resultants.size()), MPI_DOUBLE,
-                MPI_SUM, communicator);
+  MPI_Allreduce(MPI_IN_PLACE, total.resultants.data(), static_cast<int>(dim * total.resultants.size()),
+                MPI_DOUBLE, MPI_SUM, communicator);
   return total;
 }
 

@@ -98,8 +98,8 @@ PairFoot<dim> ContactPotential<dim>::evaluate_body_pair(const ContactPair<dim> &
     result.normal = result.gap / -foot.depth;
     return result;
   }
-  // Inside a facet, or too close for the gap to have a direction, the facet's normal is the direction: it has none
-  // of the round-off that the gap takes from coordinates many orders larger than itself.
+  // Inside a facet, or too close for the gap to have a direction, the facet's normal is the direction: it has
+  // none of the round-off that the gap takes from coordinates many orders larger than itself.
   result.normal = evaluate_facet_frame(gather_nodes(target, evaluated_positions), foot.closest.xi)
                       .area_normal.normalized();
   result.depth = -result.gap.dot(result.normal);
@@ -237,7 +237,7 @@ void ContactPotential<dim>::for_each_tangent(
 
 template <int dim>
 void ContactPotential<dim>::for_each_coupling(
-  const std::function<void(const std::vector<unsigned int> &nodes)> &add) const
+    const std::function<void(const std::vector<unsigned int> &nodes)> &add) const
 {
   const auto append_nodes = [this](unsigned int facet, std::vector<unsigned int> &nodes)
   {
@@ -318,19 +318,19 @@ template <int dim>
 std::vector<ContactSample<dim>> ContactPotential<dim>::samples() const
 {
   std::vector<ContactSample<dim>> all;
-  for_each_pair_deeper_than(-pairs.skin(),
-                            [&](const NearPair &near)
-                            {
-                              const FacetNodes<dim> contactor =
-                                gather_nodes(surface.facets[near.pair.facet], evaluated_positions);
-                              const auto frame = evaluate_facet_frame(contactor, near.pair.xi);
-                              if (frame.area_normal.dot(near.foot.normal) > -facing * frame.area_normal.norm())
-                                return;
-                              const double depth = near.foot.depth;
-                              all.push_back({near.pair.facet, near.pair.xi, near.foot.position, depth,
-                                             near.pair.stiffness * std::max(depth, 0.), near.pair.area,
-                                             (near.target != nullptr ? 2. : 1.) * near.pair.area});
-                            });
+  for_each_pair_deeper_than(
+      -pairs.skin(),
+      [&](const NearPair &near)
+      {
+        const FacetNodes<dim> contactor = gather_nodes(surface.facets[near.pair.facet], evaluated_positions);
+        const auto frame = evaluate_facet_frame(contactor, near.pair.xi);
+        if (frame.area_normal.dot(near.foot.normal) > -facing * frame.area_normal.norm())
+          return;
+        const double depth = near.foot.depth;
+        all.push_back({near.pair.facet, near.pair.xi, near.foot.position, depth,
+                       near.pair.stiffness * std::max(depth, 0.), near.pair.area,
+                       (near.target != nullptr ? 2. : 1.) * near.pair.area});
+      });
   return all;
 }
 

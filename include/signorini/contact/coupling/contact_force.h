@@ -12,7 +12,8 @@ template <int dim>
 class ContactForce : public ForceTerm
 {
 public:
-  /// `is_external`: contact with obstacles, which changes the momentum of the bodies. `map` must outlive this object.
+  /// `is_external`: contact with obstacles, which changes the momentum of the bodies. `map` must outlive this
+  /// object.
   ContactForce(const std::string &name, bool is_external, const SurfaceMap<dim> &map,
                typename contact::ContactPotential<dim>::Obstacles obstacles,
                const contact::PotentialSettings &settings, const MPI_Comm &communicator);
@@ -38,8 +39,8 @@ public:
   /// Force by node of the whole surface, without damping, the same on all ranks [N] (collective).
   std::vector<SpatialVector<dim>> nodal_forces() const;
 
-  /// Area by node, ∫N dA over the sampled parts of the faces that face another surface, the same on all ranks [m²; m in
-  /// 2-D] (collective).
+  /// Area by node, ∫N dA over the sampled parts of the faces that face another surface, the same on all ranks
+  /// [m²; m in 2-D] (collective).
   std::vector<double> nodal_areas() const;
 
   /// This rank's points.

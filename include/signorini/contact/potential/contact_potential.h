@@ -58,13 +58,14 @@ public:
   double add_damping_forces(const std::vector<SpatialVector<dim>> &velocities,
                             std::vector<SpatialVector<dim>> &forces) const;
 
-  /// Calls `add(nodes, block)` for every active pair with its Hessian block of size dim·n_nodes, node-major. Pairs on
-  /// the very verge of contact count as active here, so that bodies laid exactly upon each other hold each other.
+  /// Calls `add(nodes, block)` for every active pair with its Hessian block of size dim·n_nodes, node-major.
+  /// Pairs on the very verge of contact count as active here, so that bodies laid exactly upon each other
+  /// hold each other.
   void for_each_tangent(const std::function<void(const std::vector<unsigned int> &nodes,
                                                  const Eigen::MatrixXd &block)> &add) const;
 
-  /// Calls `add(nodes)` with the nodes that may couple until neighbours are searched again: those of every owned
-  /// facet and of all facets of one other body near it.
+  /// Calls `add(nodes)` with the nodes that may couple until neighbours are searched again: those of every
+  /// owned facet and of all facets of one other body near it.
   void for_each_coupling(const std::function<void(const std::vector<unsigned int> &nodes)> &add) const;
 
   /// How often neighbours were searched: couplings stay the same between two searches.
