@@ -39,7 +39,8 @@ inline MaterialParameters make_material(Model model, double poissons_ratio = .3)
 }
 
 /// A box from the origin unless moved.
-inline BodyParameters make_box(const std::string &name, const Triple &upper, const std::array<unsigned int, 3> &cells)
+inline BodyParameters make_box(const std::string &name, const Triple &upper,
+                               const std::array<unsigned int, 3> &cells)
 {
   BodyParameters body;
   body.name = name;
@@ -89,13 +90,12 @@ inline SupportParameters make_support(const std::string &boundary,
 template <int dim>
 struct BuiltScene
 {
-  BuiltScene(const std::vector<BodyParameters> &bodies, unsigned int degree,
-             const std::function<void(Parameters &)> &change = [](Parameters &) {})
-    : parameters(make_parameters(bodies, degree, change))
-    , scene(make_scene<dim>(parameters))
-    , discretization(parameters, MPI_COMM_WORLD)
-    , supports(scene, discretization, 1.)
-    , map(scene, discretization)
+  BuiltScene(
+      const std::vector<BodyParameters> &bodies, unsigned int degree,
+      const std::function<void(Parameters &)> &change = [](Parameters &) {})
+      : parameters(make_parameters(bodies, degree, change)), scene(make_scene<dim>(parameters)),
+        discretization(parameters, MPI_COMM_WORLD), supports(scene, discretization, 1.),
+        map(scene, discretization)
   {
     forces.elasticity = std::make_shared<InternalForce<dim>>(scene.materials, discretization);
     state.displacement = discretization.make_vector();

@@ -11,7 +11,8 @@ namespace
 {
 template <typename T>
 class ContactForces : public testing::Test
-{};
+{
+};
 TYPED_TEST_SUITE(ContactForces, AllCases);
 
 TYPED_TEST(ContactForces, ForceIsEnergyGradient)
@@ -95,7 +96,8 @@ TYPED_TEST(ContactForces, ForcesOfBodiesBalance)
       }
     }
     const auto measures = contact->measure();
-    EXPECT_LT((measures.resultants[0] + measures.resultants[1]).norm(), 1e-13 * measures.resultants[0].norm());
+    EXPECT_LT((measures.resultants[0] + measures.resultants[1]).norm(),
+              1e-13 * measures.resultants[0].norm());
   }
 }
 

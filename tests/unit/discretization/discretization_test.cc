@@ -14,13 +14,15 @@ namespace
 {
 template <typename T>
 class Discretizations : public testing::Test
-{};
+{
+};
 TYPED_TEST_SUITE(Discretizations, AllCases);
 
 TYPED_TEST(Discretizations, CollectIsTheTransposeOfDistribute)
 {
   constexpr int dim = TypeParam::dim;
-  BuiltScene<dim> built({graded(make_box("box", {2., 2., 2.}, {2, 2, 2}), {1., 1., 1.}, 2, .2)}, TypeParam::degree);
+  BuiltScene<dim> built({graded(make_box("box", {2., 2., 2.}, {2, 2, 2}), {1., 1., 1.}, 2, .2)},
+                        TypeParam::degree);
   ASSERT_FALSE(built.discretization.hanging_dofs.empty());
   const Vector u = built.random_vector(1., 1);
   Vector f = built.discretization.make_vector();
@@ -41,7 +43,8 @@ TYPED_TEST(Discretizations, CollectIsTheTransposeOfDistribute)
 TYPED_TEST(Discretizations, DistributeReproducesLinearFields)
 {
   constexpr int dim = TypeParam::dim;
-  BuiltScene<dim> built({graded(make_box("box", {2., 2., 2.}, {2, 2, 2}), {1., 1., 1.}, 2, .2)}, TypeParam::degree);
+  BuiltScene<dim> built({graded(make_box("box", {2., 2., 2.}, {2, 2, 2}), {1., 1., 1.}, 2, .2)},
+                        TypeParam::degree);
   Vector values = built.interpolate([](const SpatialVector<dim> &x) { return SpatialVector<dim>(3. * x); });
   for (const OwnedNode<dim> &node : built.discretization.owned_nodes)
     for (unsigned int d = 0; d < dim; ++d)
@@ -117,7 +120,8 @@ TYPED_TEST(Discretizations, HangingNodesLieBetweenTheirMasters)
 
 template <typename T>
 class Meshes : public testing::Test
-{};
+{
+};
 TYPED_TEST_SUITE(Meshes, LinearCases);
 
 TYPED_TEST(Meshes, GradingRefinesWhereAskedAndNowhereElse)

@@ -29,7 +29,7 @@ struct SurfaceSums
           for (unsigned int d = 0; d + 1 < dim; ++d)
             xi[d] = quadrature.point(q)[d];
           const auto frame =
-            contact::evaluate_facet_frame(contact::gather_nodes(facet, surface.reference_positions), xi);
+              contact::evaluate_facet_frame(contact::gather_nodes(facet, surface.reference_positions), xi);
           area += quadrature.weight(q) * frame.area_normal.norm();
           area_normal += quadrature.weight(q) * frame.area_normal;
           do_normals_point_out = do_normals_point_out && frame.area_normal.dot(frame.position - centre) > 0.;
@@ -39,7 +39,8 @@ struct SurfaceSums
 
 template <typename T>
 class SurfaceMaps : public testing::Test
-{};
+{
+};
 TYPED_TEST_SUITE(SurfaceMaps, AllCases);
 
 TYPED_TEST(SurfaceMaps, GradedTurnedBoxIsClosedAndHasItsArea)
@@ -140,7 +141,7 @@ TYPED_TEST(SurfaceMaps, FacetsKnowTheLayerBehindThem)
         n_found[d] += std::abs(facet.layer_thickness - thickness[d]) < 1e-12;
     }
   const std::array<unsigned int, 3> expected =
-    dim == 2 ? std::array<unsigned int, 3>{10, 8, 0} : std::array<unsigned int, 3>{80, 64, 40};
+      dim == 2 ? std::array<unsigned int, 3>{10, 8, 0} : std::array<unsigned int, 3>{80, 64, 40};
   EXPECT_EQ(n_found, expected);
 }
 

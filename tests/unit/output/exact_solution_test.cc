@@ -23,7 +23,8 @@ double simulate_bounce(double damping_ratio)
 {
   const double step = 1e-4;
   double x = 0., v = 1.;
-  const auto force = [&](double position, double velocity) { return -position - 2. * damping_ratio * velocity; };
+  const auto force = [&](double position, double velocity)
+  { return -position - 2. * damping_ratio * velocity; };
   for (bool has_begun = false;; has_begun = true)
   {
     if (has_begun && force(x, v) >= 0.)

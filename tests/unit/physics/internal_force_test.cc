@@ -69,7 +69,8 @@ TYPED_TEST(InternalForces, NeoHookeanForcesBalanceInTheDeformedConfiguration)
 
 TYPED_TEST(InternalForces, LinearElasticForcesBalanceInTheUndeformedConfiguration)
 {
-  BuiltScene<TypeParam::dim> built(make_bodies(Model::linear_elastic, Model::linear_elastic), TypeParam::degree);
+  BuiltScene<TypeParam::dim> built(make_bodies(Model::linear_elastic, Model::linear_elastic),
+                                   TypeParam::degree);
   this->expect_balance(built, built.random_vector(.04), built.discretization.make_vector());
 }
 
@@ -77,7 +78,8 @@ TYPED_TEST(InternalForces, NeoHookeanEnergyDoesNotSeeRigidMotion)
 {
   constexpr int dim = TypeParam::dim;
   BuiltScene<dim> built(make_bodies(Model::neo_hookean, Model::neo_hookean), TypeParam::degree);
-  const SpatialTensor<dim> R = Eigen::AngleAxisd(1.1, Eigen::Vector3d(0., 0., 1.)).toRotationMatrix().topLeftCorner<dim, dim>();
+  const SpatialTensor<dim> R =
+      Eigen::AngleAxisd(1.1, Eigen::Vector3d(0., 0., 1.)).toRotationMatrix().topLeftCorner<dim, dim>();
   const Vector u = built.random_vector(.04);
   Vector turned = built.discretization.make_vector();
   for (const OwnedNode<dim> &node : built.discretization.owned_nodes)
@@ -115,8 +117,9 @@ TYPED_TEST(InternalForces, LinearDisplacementGivesOneStress)
     const double E = material.youngs_modulus, nu = material.poissons_ratio;
     Eigen::Matrix3d strain = Eigen::Matrix3d::Zero();
     strain.topLeftCorner<dim, dim>() = .5 * (H + H.transpose());
-    const Eigen::Matrix3d expected = E / (1. + nu) * strain + E * nu / ((1. + nu) * (1. - 2. * nu)) * strain.trace() *
-                                                                Eigen::Matrix3d::Identity();
+    const Eigen::Matrix3d expected = E / (1. + nu) * strain + E * nu / ((1. + nu) * (1. - 2. * nu)) *
+                                                                  strain.trace() *
+                                                                  Eigen::Matrix3d::Identity();
     EXPECT_LT((stresses[cell] - expected).norm(), 1e-12 * expected.norm());
   }
 
@@ -147,12 +150,12 @@ TYPED_TEST(InternalForces, MeanDilatationTakesOneVolumeRatioACell)
     cell.material.youngs_modulus = 2. * (1. + poissons_ratio); // shear modulus 1
     BuiltScene<dim> built({cell}, 1);
     const Vector u = built.interpolate(
-      [](const SpatialVector<dim> &x)
-      {
-        SpatialVector<dim> bending = SpatialVector<dim>::Zero();
-        bending[0] = x[0] * x[1];
-        return bending;
-      });
+        [](const SpatialVector<dim> &x)
+        {
+          SpatialVector<dim> bending = SpatialVector<dim>::Zero();
+          bending[0] = x[0] * x[1];
+          return bending;
+        });
     return built.energy_of(*built.forces.elasticity, u);
   };
   EXPECT_NEAR(energy(.4999), energy(.1), 1e-9 * energy(.1));

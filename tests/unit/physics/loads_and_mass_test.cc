@@ -33,7 +33,8 @@ double checked_total(const BuiltScene<dim> &built, const Vector &lumped, unsigne
 
 template <typename T>
 class LoadsAndMass : public testing::Test
-{};
+{
+};
 TYPED_TEST_SUITE(LoadsAndMass, AllCases);
 
 TYPED_TEST(LoadsAndMass, MassOfAGradedBoxIsDensityTimesVolume)
@@ -65,7 +66,8 @@ TYPED_TEST(LoadsAndMass, MassOfADistortedMeshIsDensityTimesVolume)
   const double volume = sum_of_weights(built.discretization);
   EXPECT_NEAR(checked_total(built, make_nodal_volume(built.discretization), 0), volume, 1e-12 * volume);
   const double mass = ball.material.density * (volume - 1.) + 50.;
-  EXPECT_NEAR(checked_total(built, make_lumped_mass(built.scene.materials, built.discretization), 0), mass, 1e-12 * mass);
+  EXPECT_NEAR(checked_total(built, make_lumped_mass(built.scene.materials, built.discretization), 0), mass,
+              1e-12 * mass);
 }
 
 template <int dim>
@@ -92,10 +94,13 @@ TYPED_TEST(LoadsAndMass, TractionOnAGradedFaceHasItsResultantAndMoment)
   BodyParameters box = graded(make_box("box", {2., 1.5, 1.}, {3, 2, 2}), {2., 1.5, 1.}, 2);
   box.loads.push_back(make_traction("right", {{"3*t", "-2", "5"}}));
   BuiltScene<dim> built({make_box("unloaded", {-1., -1., -1.}, {1, 1, 1}), box}, TypeParam::degree,
-                        [](Parameters &p) { p.bodies[0].mesh.lower_corner = {-2., -2., -2.}; });
+                        [](Parameters &p) {
+                          p.bodies[0].mesh.lower_corner = {-2., -2., -2.};
+                        });
   const VectorAndMoment sums = load_on(built, .5);
   const double area = 1.5;
-  const std::array<double, 3> force{1.5 * area, -2. * area, dim == 3 ? 5. * area : 0.}, arm{2., .75, dim == 3 ? .5 : 0.};
+  const std::array<double, 3> force{1.5 * area, -2. * area, dim == 3 ? 5. * area : 0.},
+      arm{2., .75, dim == 3 ? .5 : 0.};
   for (unsigned int d = 0; d < 3; ++d)
   {
     const unsigned int e = (d + 1) % 3, f = (d + 2) % 3;

@@ -72,7 +72,8 @@ TYPED_TEST(Material, StressIsGradientOfEnergy)
   const auto here = this->shape(this->general);
   for (int i = 0; i < here.stress.size(); ++i)
   {
-    const double difference = this->shape(this->moved(i, this->step)).energy - this->shape(this->moved(i, -this->step)).energy;
+    const double difference =
+        this->shape(this->moved(i, this->step)).energy - this->shape(this->moved(i, -this->step)).energy;
     EXPECT_NEAR(here.stress[i], difference / (2. * this->step), 1e-7 * here.stress.norm());
   }
 }
@@ -82,8 +83,10 @@ TYPED_TEST(Material, TangentIsGradientOfStressAndSymmetric)
   const auto here = this->shape(this->general);
   for (int i = 0; i < here.stress.size(); ++i)
   {
-    const auto column = ((this->shape(this->moved(i, this->step)).stress - this->shape(this->moved(i, -this->step)).stress) /
-                         (2. * this->step)).eval();
+    const auto column =
+        ((this->shape(this->moved(i, this->step)).stress - this->shape(this->moved(i, -this->step)).stress) /
+         (2. * this->step))
+            .eval();
     EXPECT_LT((here.tangent.col(i) - column).norm(), 1e-7 * here.tangent.norm());
   }
   EXPECT_LT((here.tangent - here.tangent.transpose()).norm(), 1e-14 * here.tangent.norm());
@@ -94,7 +97,8 @@ TYPED_TEST(Material, VolumeRatioAndItsDerivatives)
   const auto here = this->ratio(this->general);
   for (int i = 0; i < here.gradient.size(); ++i)
   {
-    const auto forth = this->ratio(this->moved(i, this->step)), back = this->ratio(this->moved(i, -this->step));
+    const auto forth = this->ratio(this->moved(i, this->step)),
+               back = this->ratio(this->moved(i, -this->step));
     EXPECT_NEAR(here.gradient[i], (forth.value - back.value) / (2. * this->step), 1e-7);
     EXPECT_LT((here.hessian.col(i) - (forth.gradient - back.gradient) / (2. * this->step)).norm(), 1e-7);
   }
@@ -133,7 +137,8 @@ TYPED_TEST(Material, CauchyStressIsPushedForwardFirstStress)
   const auto ratio = this->ratio(this->general);
   const double pressure = this->law.volume(ratio.value).pressure;
   using Matrix = Eigen::Matrix<double, dim, dim, Eigen::RowMajor>;
-  Matrix first = Eigen::Map<const Matrix>(Eigen::Matrix<double, dim * dim, 1>(shape.stress + pressure * ratio.gradient).data());
+  Matrix first = Eigen::Map<const Matrix>(
+      Eigen::Matrix<double, dim * dim, 1>(shape.stress + pressure * ratio.gradient).data());
   if (std::is_same_v<typename TypeParam::Law, NeoHookean<dim>>)
     first = (first * (Matrix::Identity() + this->general).transpose() / ratio.value).eval();
   const Eigen::Matrix3d stress = this->law.cauchy_stress(this->general, pressure);
@@ -161,7 +166,8 @@ TYPED_TEST(Material, PlaneStrainIsTheThreeDimensionalAnswer)
 
 TEST(LinearElasticLaw, UniaxialStressFollowsYoungsModulus)
 {
-  const double E = 9. * kappa * mu / (3. * kappa + mu), nu = (3. * kappa - 2. * mu) / (2. * (3. * kappa + mu));
+  const double E = 9. * kappa * mu / (3. * kappa + mu),
+               nu = (3. * kappa - 2. * mu) / (2. * (3. * kappa + mu));
   const double strain = .01;
   const Eigen::Matrix3d H = Eigen::Vector3d(strain, -nu * strain, -nu * strain).asDiagonal();
   const LinearElastic<3> law{mu, kappa};
@@ -197,7 +203,8 @@ TEST(NeoHookeanLaw, SimpleShearGivesShearModulusTimesShear)
 TEST(NeoHookeanLaw, RotationRotatesTheStressAndStoresNothing)
 {
   const NeoHookean<3> law{mu, kappa};
-  const Eigen::Matrix3d R = Eigen::AngleAxisd(1.9, Eigen::Vector3d(1., -2., .5).normalized()).toRotationMatrix();
+  const Eigen::Matrix3d R =
+      Eigen::AngleAxisd(1.9, Eigen::Vector3d(1., -2., .5).normalized()).toRotationMatrix();
   const Eigen::Matrix3d I = Eigen::Matrix3d::Identity(), H = general_gradient<3>();
   const Eigen::Matrix3d turned = R * (I + H) - I;
   EXPECT_LT((law.cauchy_stress(turned, -.2) - R * law.cauchy_stress(H, -.2) * R.transpose()).norm(), 1e-13);

@@ -19,14 +19,15 @@ double largest_frequency_squared(BuiltScene<dim> &built, const std::vector<Force
   Eigen::VectorXd scale = Eigen::VectorXd::Zero(tangent.rows());
   for (const unsigned int dof : built.free_dofs())
     scale[dof] = 1. / std::sqrt(mass.local_element(dof));
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(scale.asDiagonal() * tangent * scale.asDiagonal(),
-                                                             Eigen::EigenvaluesOnly);
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(
+      scale.asDiagonal() * tangent * scale.asDiagonal(), Eigen::EigenvaluesOnly);
   return eigen.eigenvalues().maxCoeff();
 }
 
 template <typename T>
 class CriticalStep : public testing::Test
-{};
+{
+};
 TYPED_TEST_SUITE(CriticalStep, AllCases);
 
 TYPED_TEST(CriticalStep, BulkBoundIsSafeAndNotWasteful)
@@ -44,8 +45,8 @@ TYPED_TEST(CriticalStep, BulkBoundIsSafeAndNotWasteful)
       BuiltScene<dim> built(bodies, TypeParam::degree);
       built.state.displacement = built.random_vector(.01);
       const double exact = largest_frequency_squared(built, {built.forces.elasticity.get()});
-      const double bound =
-        compute_bulk_frequency_squared(*built.forces.elasticity, built.scene.materials, built.discretization);
+      const double bound = compute_bulk_frequency_squared(*built.forces.elasticity, built.scene.materials,
+                                                          built.discretization);
       EXPECT_GE(bound, (1. - 1e-9) * exact) << bodies[0].name;
       EXPECT_LE(bound, 4. * exact) << bodies[0].name;
     }
@@ -64,7 +65,8 @@ TYPED_TEST(CriticalStep, ContactBoundIsSafeAndNotWasteful)
     contact->renew(built.state);
     contact->update(built.state);
     const Vector mass = make_lumped_mass(built.scene.materials, built.discretization);
-    const double of_contact = compute_contact_bound<dim>({contact.get()}, mass, built.discretization).frequency_squared;
+    const double of_contact =
+        compute_contact_bound<dim>({contact.get()}, mass, built.discretization).frequency_squared;
     // It counts points that are near and not yet in contact, in all directions at once.
     const double allowed = TypeParam::degree == 1 ? 7. : 11.;
     const double of_contact_alone = largest_frequency_squared(built, {contact.get()});
@@ -73,8 +75,9 @@ TYPED_TEST(CriticalStep, ContactBoundIsSafeAndNotWasteful)
 
     const double exact = largest_frequency_squared(built, {built.forces.elasticity.get(), contact.get()});
     built.forces.elasticity->update(built.state);
-    const double bound = of_contact + compute_bulk_frequency_squared(*built.forces.elasticity, built.scene.materials,
-                                                                     built.discretization);
+    const double bound =
+        of_contact +
+        compute_bulk_frequency_squared(*built.forces.elasticity, built.scene.materials, built.discretization);
     EXPECT_GE(bound, (1. - 1e-9) * exact);
     EXPECT_LE(bound, allowed * exact);
   }

@@ -13,9 +13,8 @@ template <int dim>
 struct Run
 {
   explicit Run(BuiltScene<dim> &built_scene)
-    : built(built_scene)
-    , solver(built.discretization, built.supports, built.scene.materials, built.forces, ExplicitParameters(),
-             built.run_time)
+      : built(built_scene), solver(built.discretization, built.supports, built.scene.materials, built.forces,
+                                   ExplicitParameters(), built.run_time)
   {
     solver.start(built.state);
   }
@@ -39,7 +38,8 @@ struct Run
 
 template <typename T>
 class Explicit : public testing::Test
-{};
+{
+};
 TYPED_TEST_SUITE(Explicit, AllCases);
 
 TYPED_TEST(Explicit, FreeBodyKeepsItsMomenta)
@@ -132,7 +132,9 @@ TYPED_TEST(Explicit, FreeFallIsExact)
 {
   constexpr int dim = TypeParam::dim;
   BuiltScene<dim> built({make_graded_cube()}, TypeParam::degree,
-                        [](Parameters &p) { p.gravity = {1., -3., 2.}; });
+                        [](Parameters &p) {
+                          p.gravity = {1., -3., 2.};
+                        });
   built.forces.loads.push_back(std::make_shared<DeadLoad<dim>>(built.scene, built.discretization));
   const SpatialVector<dim> start = SpatialVector<dim>::Constant(.4);
   built.state.velocity = built.interpolate([&](const SpatialVector<dim> &) { return start; });
@@ -142,7 +144,8 @@ TYPED_TEST(Explicit, FreeFallIsExact)
   for (const OwnedNode<dim> &node : built.discretization.owned_nodes)
     for (unsigned int d = 0; d < dim; ++d)
     {
-      EXPECT_NEAR(built.state.displacement.local_element(node.dofs[d]), .4 * t + .5 * built.scene.gravity[d] * t * t, 1e-11);
+      EXPECT_NEAR(built.state.displacement.local_element(node.dofs[d]),
+                  .4 * t + .5 * built.scene.gravity[d] * t * t, 1e-11);
       EXPECT_NEAR(built.state.velocity.local_element(node.dofs[d]), .4 + built.scene.gravity[d] * t, 1e-11);
     }
   EXPECT_LT(std::abs(run.solver.energy().residual()), 1e-12);
@@ -154,7 +157,8 @@ TYPED_TEST(Explicit, WorkOfMovingSupportsIsTheEnergyGained)
 {
   constexpr int dim = TypeParam::dim;
   BodyParameters body = make_graded_cube({1., 1., 1.});
-  body.supports = {make_support("left", {"0", "0", "0"}), make_support("right", {".05*(1-cos(2*t))", {}, {}})};
+  body.supports = {make_support("left", {"0", "0", "0"}),
+                   make_support("right", {".05*(1-cos(2*t))", {}, {}})};
   std::array<double, 2> drift;
   for (unsigned int halving = 0; halving < 2; ++halving)
   {
