@@ -239,6 +239,6 @@ TEST(Locking, NearlyIncompressibleWaveMatchesDegreeTwo)
   };
   const double fine = stored_energy(2, 48);
   ASSERT_GT(fine, 0.);
-  EXPECT_NEAR(stored_energy(1, 24), fine, .05 * fine); // locked: twelve times as much
+  EXPECT_NEAR(stored_energy(1, 24), fine, .05 * fine); // locked: four times as much
 }
 } // namespace
