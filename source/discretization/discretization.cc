@@ -144,6 +144,20 @@ void Discretization<dim>::collect_owned_nodes()
       std::copy(dofs, dofs + dim, owned.dofs.begin());
       owned_nodes.push_back(owned);
     }
+  std::vector<bool> is_used(partitioner->locally_owned_size(), false);
+  for (const unsigned int dof : cells.dofs)
+    if (dof < is_used.size())
+      is_used[dof] = true;
+  for (unsigned int dof = 0; dof < is_used.size(); ++dof)
+    if (!is_used[dof])
+      unused_dofs.push_back(partitioner->local_to_global(dof));
+}
+
+template <int dim>
+dealii::types::global_dof_index Discretization<dim>::n_dofs() const
+{
+  return dof_handler.n_dofs() -
+         dealii::Utilities::MPI::sum(static_cast<dealii::types::global_dof_index>(unused_dofs.size()), mpi_communicator);
 }
 
 template <int dim>

@@ -125,8 +125,13 @@ std::vector<ErrorRow> patch(const Results<dim> &results)
     if (sample.area > 1e-9 * largest_area && std::abs(sample.pressure - exact) >= std::abs(worst - exact))
       worst = sample.pressure;
   const double low = -results.smallest_stress(dim - 1, dim - 1), high = -results.largest_stress(dim - 1, dim - 1);
+  double worst_node = exact;
+  for (const double pressure : results.nodal_pressures)
+    if (std::abs(pressure - exact) >= std::abs(worst_node - exact))
+      worst_node = pressure;
   const double load = norm(results.total_load);
   std::vector<ErrorRow> rows{compare("contact pressure (worst point)", worst, exact),
+                             compare("projected contact pressure (worst node)", worst_node, exact),
                              compare("normal stress (largest)", low, exact),
                              compare("normal stress (smallest)", high, exact),
                              compare("resultant", results.contact.resultants.at(0).norm(), load)};

@@ -104,18 +104,28 @@ template <int dim>
 std::pair<Vector, Vector> Fields<dim>::project_contact(const SceneForces<dim> &forces) const
 {
   const ContactSurface<dim> &surface = map->surface();
-  std::vector<SpatialVector<3>> sums(surface.n_nodes(), SpatialVector<3>::Zero()); // area, area·pressure, area·gap
+  std::vector<double> pressures(surface.n_nodes(), 0.), gaps(surface.n_nodes(), 0.), areas(surface.n_nodes(), 0.);
   for (const auto &term : forces.contacts)
+  {
+    const std::vector<SpatialVector<dim>> nodal_forces = term->nodal_forces();
+    const std::vector<double> nodal_areas = term->nodal_areas();
+    for (unsigned int node = 0; node < surface.n_nodes(); ++node)
+      if (nodal_areas[node] > 0.)
+        pressures[node] += nodal_forces[node].norm() / nodal_areas[node];
     for (const contact::ContactSample<dim> &sample : term->samples())
     {
       const Facet<dim> &facet = surface.facets[sample.facet];
-      const double gap = std::min(-sample.depth, facet.layer_thickness);
       for (unsigned int i = 0; i < facet.n_nodes(); ++i)
-        sums[facet.nodes[i]] +=
-          sample.area * hat_function(facet, i, sample.xi) * SpatialVector<3>(1., sample.pressure, gap);
+      {
+        const double weight = sample.area * hat_function(facet, i, sample.xi);
+        areas[facet.nodes[i]] += weight;
+        gaps[facet.nodes[i]] += weight * std::min(-sample.depth, facet.layer_thickness);
+      }
     }
-  MPI_Allreduce(MPI_IN_PLACE, sums.data(), static_cast<int>(3 * sums.size()), MPI_DOUBLE, MPI_SUM,
-                discretization->communicator());
+  }
+  for (std::vector<double> *sums : {&areas, &gaps})
+    MPI_Allreduce(MPI_IN_PLACE, sums->data(), static_cast<int>(sums->size()), MPI_DOUBLE, MPI_SUM,
+                  discretization->communicator());
   std::vector<double> far_gap(surface.n_nodes(), 0.);
   for (const Facet<dim> &facet : surface.facets)
     for (unsigned int i = 0; i < facet.n_nodes(); ++i)
@@ -125,8 +135,8 @@ std::pair<Vector, Vector> Fields<dim>::project_contact(const SceneForces<dim> &f
   Vector gap(pressure);
   for (const auto &[node, dof] : contact->owned)
   {
-    pressure[dof] = sums[node][0] > 0. ? sums[node][1] / sums[node][0] : 0.;
-    gap[dof] = sums[node][0] > 0. ? sums[node][2] / sums[node][0] : far_gap[node];
+    pressure[dof] = pressures[node];
+    gap[dof] = areas[node] > 0. ? gaps[node] / areas[node] : far_gap[node];
   }
   pressure.update_ghost_values();
   gap.update_ghost_values();

@@ -46,7 +46,8 @@ void Progress::step(const std::string &line, double share)
   const double remaining = share > 0. ? elapsed * (1. - share) / share : 0.;
   const std::string full = fmt::format("{}  {:5.1f} %  ETA {:.0f} s", line, 100. * share, remaining);
   log << full << std::endl;
-  const bool is_due = is_terminal || std::chrono::duration<double>(now - last_shown).count() > 2.;
+  const double pause = is_terminal ? 0.2 : 2.;
+  const bool is_due = std::chrono::duration<double>(now - last_shown).count() > pause;
   if (is_quiet || !is_due)
     return;
   std::cout << full << std::endl;

@@ -3,18 +3,84 @@
 
 #include "signorini/base/exceptions.h"
 
-#include <deal.II/lac/dynamic_sparsity_pattern.h>
-#include <deal.II/lac/petsc_precondition.h>
-#include <deal.II/lac/petsc_solver.h>
-#include <deal.II/lac/petsc_sparse_matrix.h>
-#include <deal.II/lac/petsc_vector.h>
-#include <deal.II/lac/solver_control.h>
-#include <deal.II/lac/trilinos_solver.h>
+#include <Epetra_CrsMatrix.h>
+#include <petscksp.h>
+
+#include <vector>
 
 namespace signorini
 {
 namespace
 {
+/// A PETSc object, destroyed at the end of its scope (collective).
+template <typename Object, PetscErrorCode (*destroy)(Object *)>
+struct Owned
+{
+  Object object = nullptr;
+  Owned() = default;
+  Owned(const Owned &) = delete;
+  Owned &operator=(const Owned &) = delete;
+  ~Owned() { destroy(&object); }
+  operator Object() const { return object; }
+  Object *operator&() { return &object; }
+};
+
+using OwnedMatrix = Owned<Mat, MatDestroy>;
+using OwnedVector = Owned<Vec, VecDestroy>;
+using OwnedSolver = Owned<KSP, KSPDestroy>;
+
+/// The same matrix in PETSc's storage, on the same rows.
+void copy(const dealii::TrilinosWrappers::SparseMatrix &matrix, Mat *copied)
+{
+  const Epetra_CrsMatrix &epetra = matrix.trilinos_matrix();
+  std::vector<PetscInt> row_starts{0}, columns;
+  std::vector<PetscScalar> values;
+  for (int row = 0; row < epetra.NumMyRows(); ++row)
+  {
+    int n_entries = 0, *local_columns = nullptr;
+    double *row_values = nullptr;
+    epetra.ExtractMyRowView(row, n_entries, row_values, local_columns);
+    for (int i = 0; i < n_entries; ++i)
+      columns.push_back(epetra.GCID(local_columns[i]));
+    values.insert(values.end(), row_values, row_values + n_entries);
+    row_starts.push_back(static_cast<PetscInt>(columns.size()));
+  }
+  const auto n = static_cast<PetscInt>(matrix.m());
+  MatCreateMPIAIJWithArrays(matrix.get_mpi_communicator(), epetra.NumMyRows(), epetra.NumMyRows(), n, n,
+                            row_starts.data(), columns.data(), values.data(), copied);
+  MatSetOption(*copied, MAT_SPD, PETSC_TRUE);
+}
+
+/// Solves with a PETSc solver that `configure(solver)` has set up. Returns whether it succeeded.
+template <typename Configure>
+bool solve_in_petsc(const dealii::TrilinosWrappers::SparseMatrix &matrix,
+                    const dealii::TrilinosWrappers::MPI::Vector &right_hand_side,
+                    dealii::TrilinosWrappers::MPI::Vector &solution, PetscInt &n_iterations,
+                    const Configure &configure)
+{
+  OwnedMatrix system;
+  copy(matrix, &system);
+  OwnedVector x, b;
+  MatCreateVecs(system, &x, &b);
+  PetscScalar *entries = nullptr;
+  VecGetArray(b, &entries);
+  std::copy(right_hand_side.begin(), right_hand_side.end(), entries);
+  VecRestoreArray(b, &entries);
+
+  OwnedSolver solver;
+  KSPCreate(matrix.get_mpi_communicator(), &solver);
+  KSPSetOperators(solver, system, system);
+  configure(static_cast<KSP>(solver));
+  const bool is_run = KSPSolve(solver, b, x) == 0;
+  KSPConvergedReason reason = KSP_DIVERGED_NULL;
+  KSPGetConvergedReason(solver, &reason);
+  KSPGetIterationNumber(solver, &n_iterations);
+  VecGetArray(x, &entries);
+  std::copy(entries, entries + (solution.end() - solution.begin()), solution.begin());
+  VecRestoreArray(x, &entries);
+  return is_run && reason > 0;
+}
+
 class DirectSolver : public LinearSolver
 {
 public:
@@ -22,37 +88,21 @@ public:
                      const dealii::TrilinosWrappers::MPI::Vector &right_hand_side,
                      dealii::TrilinosWrappers::MPI::Vector &solution) override
   {
-    dealii::SolverControl control(1, 0.);
-    dealii::TrilinosWrappers::SolverDirect solver(
-      control, dealii::TrilinosWrappers::SolverDirect::AdditionalData(false, "Amesos_Mumps"));
-    try
-    {
-      solver.initialize(matrix);
-      solver.solve(solution, right_hand_side);
-    }
-    catch (const dealii::ExceptionBase &)
-    {
+    PetscInt n_iterations = 0;
+    if (!solve_in_petsc(matrix, right_hand_side, solution, n_iterations,
+                        [](KSP solver)
+                        {
+                          PC factorisation = nullptr;
+                          KSPSetType(solver, KSPPREONLY);
+                          KSPGetPC(solver, &factorisation);
+                          PCSetType(factorisation, PCCHOLESKY);
+                          PCFactorSetMatSolverType(factorisation, MATSOLVERMUMPS);
+                        }))
       throw NumericalError("the direct solver could not factorise the tangent: it is singular");
-    }
     return 1;
   }
   std::string name() const override { return "direct (MUMPS)"; }
 };
-
-/// The same matrix in PETSc's storage, on the same rows.
-void copy(const dealii::TrilinosWrappers::SparseMatrix &matrix, dealii::PETScWrappers::MPI::SparseMatrix &copied)
-{
-  const dealii::IndexSet rows = matrix.locally_owned_range_indices();
-  dealii::DynamicSparsityPattern pattern(matrix.m(), matrix.n(), rows);
-  for (const auto row : rows)
-    for (auto entry = matrix.begin(row); entry != matrix.end(row); ++entry)
-      pattern.add(row, entry->column());
-  copied.reinit(rows, rows, pattern, matrix.get_mpi_communicator());
-  for (const auto row : rows)
-    for (auto entry = matrix.begin(row); entry != matrix.end(row); ++entry)
-      copied.set(row, entry->column(), entry->value());
-  copied.compress(dealii::VectorOperation::insert);
-}
 
 class AmgSolver : public LinearSolver
 {
@@ -66,36 +116,26 @@ public:
                      const dealii::TrilinosWrappers::MPI::Vector &right_hand_side,
                      dealii::TrilinosWrappers::MPI::Vector &solution) override
   {
-    const MPI_Comm communicator = matrix.get_mpi_communicator();
-    const dealii::IndexSet rows = matrix.locally_owned_range_indices();
-    dealii::PETScWrappers::MPI::SparseMatrix system;
-    copy(matrix, system);
-    MatSetBlockSize(system, 1);
-    dealii::PETScWrappers::MPI::Vector x(rows, communicator), b(rows, communicator);
-    for (const auto row : rows)
-      b[row] = right_hand_side[row];
-    b.compress(dealii::VectorOperation::insert);
-
-    dealii::PETScWrappers::PreconditionBoomerAMG::AdditionalData data;
-    data.symmetric_operator = true;
-    data.strong_threshold = n_components == 2 ? 0.25 : 0.5;
-    data.aggressive_coarsening_num_levels = 0;
-    dealii::SolverControl control(2000, relative_tolerance * b.l2_norm());
-    dealii::PETScWrappers::SolverCG solver(control, communicator);
-    try
-    {
-      dealii::PETScWrappers::PreconditionBoomerAMG preconditioner(system, data);
-      solver.solve(system, x, b, preconditioner);
-    }
-    catch (const dealii::ExceptionBase &)
-    {
-      throw NumericalError("conjugate gradients did not reach their tolerance in " +
-                           std::to_string(control.last_step()) + " iterations");
-    }
-    for (const auto row : rows)
-      solution[row] = x[row];
-    solution.compress(dealii::VectorOperation::insert);
-    return control.last_step();
+    PetscInt n_iterations = 0;
+    if (!solve_in_petsc(matrix, right_hand_side, solution, n_iterations,
+                        [this](KSP solver)
+                        {
+                          PC multigrid = nullptr;
+                          KSPSetType(solver, KSPCG);
+                          KSPSetNormType(solver, KSP_NORM_UNPRECONDITIONED);
+                          KSPSetTolerances(solver, relative_tolerance, 0., PETSC_DEFAULT, 2000);
+                          KSPGetPC(solver, &multigrid);
+                          PCSetType(multigrid, PCHYPRE);
+                          PCHYPRESetType(multigrid, "boomeramg");
+                          PetscOptionsSetValue(nullptr, "-pc_hypre_boomeramg_strong_threshold",
+                                               n_components == 2 ? "0.25" : "0.5");
+                          PetscOptionsSetValue(nullptr, "-pc_hypre_boomeramg_relax_type_all",
+                                               "symmetric-SOR/Jacobi");
+                          PCSetFromOptions(multigrid);
+                        }))
+      throw NumericalError("conjugate gradients did not reach their tolerance in " + std::to_string(n_iterations) +
+                           " iterations");
+    return static_cast<unsigned int>(n_iterations);
   }
   std::string name() const override { return "conjugate gradients with BoomerAMG"; }
 

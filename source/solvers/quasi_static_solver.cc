@@ -112,19 +112,37 @@ void QuasiStaticSolver<dim>::compute_residual(const State &state)
 }
 
 template <int dim>
-double QuasiStaticSolver<dim>::relative_residual(const State &state)
+std::vector<double> QuasiStaticSolver<dim>::body_norms(const Vector &values) const
 {
-  compute_residual(state);
   std::vector<double> norms(materials->size(), 0.);
   for (const OwnedNode<dim> &node : discretization->owned_nodes)
     for (const unsigned int dof : node.dofs)
-      norms[node.body] += residual.local_element(dof) * residual.local_element(dof);
+      norms[node.body] += values.local_element(dof) * values.local_element(dof);
   dealii::Utilities::MPI::sum(norms, discretization->communicator(), norms);
+  for (double &norm : norms)
+    norm = std::sqrt(norm);
+  return norms;
+}
+
+template <int dim>
+double QuasiStaticSolver<dim>::relative_residual(const State &state)
+{
+  compute_residual(state);
+  Vector magnitudes = discretization->make_vector();
+  forces->elasticity->add_magnitudes(magnitudes);
+  discretization->collect(magnitudes);
+  const std::vector<double> norms = body_norms(residual), round_off = body_norms(magnitudes);
   double largest = 0.;
   for (unsigned int body = 0; body < norms.size(); ++body)
-    if (scales[body] > 0. || std::isnan(scales[body]))
-      largest = std::max(largest, std::sqrt(norms[body]) / scales[body]);
-  return std::isnan(*std::max_element(norms.begin(), norms.end())) ? std::numeric_limits<double>::quiet_NaN() : largest;
+  {
+    // A body without stress has no forces but round-off, whose share must not be judged.
+    const double floor = 4. * std::numeric_limits<double>::epsilon() * round_off[body] / parameters.tolerance;
+    const double relative = norms[body] / std::max(scales[body], floor);
+    if (!std::isfinite(relative))
+      return std::numeric_limits<double>::quiet_NaN();
+    largest = std::max(largest, relative);
+  }
+  return largest;
 }
 
 template <int dim>
@@ -133,23 +151,16 @@ double QuasiStaticSolver<dim>::compute_round_off(const State &state) const
   Vector stiffness = discretization->make_vector(), damping = discretization->make_vector();
   for (const auto &contact : forces->contacts)
     contact->add_row_sum_bounds(stiffness, damping);
-  Vector magnitudes = discretization->make_vector();
-  forces->elasticity->add_magnitudes(magnitudes);
-  discretization->collect(magnitudes);
-  double squared = 0.;
   for (const OwnedNode<dim> &node : discretization->owned_nodes)
     for (unsigned int d = 0; d < dim; ++d)
-    {
-      const double position = node.position[d] + state.displacement.local_element(node.dofs[d]);
-      squared += std::pow(stiffness.local_element(node.dofs[d]) * std::abs(position) +
-                            magnitudes.local_element(node.dofs[d]),
-                          2);
-    }
-  squared = dealii::Utilities::MPI::sum(squared, discretization->communicator());
-  double largest_scale = 0.;
-  for (const double scale : scales)
-    largest_scale = std::max(largest_scale, scale);
-  return largest_scale > 0. ? std::numeric_limits<double>::epsilon() * std::sqrt(squared) / largest_scale : 0.;
+      stiffness.local_element(node.dofs[d]) *=
+        node.position[d] + state.displacement.local_element(node.dofs[d]);
+  const std::vector<double> round_off = body_norms(stiffness);
+  double largest = 0.;
+  for (unsigned int body = 0; body < scales.size(); ++body)
+    if (scales[body] > 0.)
+      largest = std::max(largest, std::numeric_limits<double>::epsilon() * round_off[body] / scales[body]);
+  return largest;
 }
 
 template <int dim>
@@ -179,6 +190,8 @@ bool QuasiStaticSolver<dim>::make_constraints(double old_time, double time)
       constraints.set_inhomogeneity(entry.dof, increment);
     }
   }
+  for (const dealii::types::global_dof_index dof : discretization->unused_dofs)
+    constraints.add_line(dof);
   constraints.close();
   system.constraints = &constraints;
   return do_supports_move;
@@ -195,6 +208,8 @@ void QuasiStaticSolver<dim>::rebuild_matrix()
     dealii::Utilities::MPI::this_mpi_process(discretization->communicator()));
   for (const auto &term : terms)
     term->add_couplings(constraints, pattern);
+  for (const dealii::types::global_dof_index dof : discretization->unused_dofs)
+    pattern.add(dof, dof);
   pattern.compress();
   system.matrix.reinit(pattern);
   system.right_hand_side.reinit(discretization->owned_dofs, discretization->communicator());
@@ -234,6 +249,8 @@ void QuasiStaticSolver<dim>::assemble(DrivenBy cause)
       system.right_hand_side[dof] += residual.local_element(i);
     system.matrix.add(dof, dof, constraints.is_constrained(dof) ? 0. : regularization.local_element(i));
   }
+  for (const dealii::types::global_dof_index dof : discretization->unused_dofs)
+    system.matrix.add(dof, dof, 1.);
   system.matrix.compress(dealii::VectorOperation::add);
   system.right_hand_side.compress(dealii::VectorOperation::add);
 }
@@ -250,7 +267,10 @@ double QuasiStaticSolver<dim>::search_along(const Vector &increment, State &stat
 {
   // Approximate Wolfe conditions (W. W. Hager, H. Zhang, 2005): the energy decides until it drowns in round-off,
   // then the slope does.
-  const double slope = -(residual * increment);
+  // Where the tangent is indefinite Newton's direction may lead uphill: then its opposite leads down.
+  const double newton_slope = -(residual * increment);
+  const double direction = newton_slope > 0. ? -1. : 1.;
+  const double slope = direction * newton_slope;
   const double energy = total_energy();
   const unsigned int searches = n_searches();
   const Vector start = state.displacement;
@@ -258,7 +278,7 @@ double QuasiStaticSolver<dim>::search_along(const Vector &increment, State &stat
   for (unsigned int trial = 0; trial < 30; ++trial, step *= 0.5)
   {
     state.displacement = start;
-    state.displacement.add(step, increment);
+    state.displacement.add(direction * step, increment);
     discretization->distribute(state.displacement);
     compute_residual(state);
     const double new_energy = total_energy();
@@ -266,7 +286,7 @@ double QuasiStaticSolver<dim>::search_along(const Vector &increment, State &stat
       continue;
     if (n_searches() != searches)
       return step;
-    const double new_slope = -(residual * increment);
+    const double new_slope = -direction * (residual * increment);
     const double round_off = 1e-10 * (std::abs(energy) + std::abs(new_energy));
     if (new_energy <= energy + 1e-4 * step * slope ||
         (new_energy <= energy + round_off && std::abs(new_slope) <= 0.9 * std::abs(slope)))

@@ -61,6 +61,13 @@ public:
   CellTable<dim> cells;
   std::vector<OwnedNode<dim>> owned_nodes;
 
+  /// Owned degrees of freedom without a cell: deal.II 9.4 numbers a few of them on the borders between ranks of meshes
+  /// with hanging nodes. They mean nothing and must not reach a linear solver.
+  std::vector<dealii::types::global_dof_index> unused_dofs;
+
+  /// Degrees of freedom of all ranks that have a cell.
+  dealii::types::global_dof_index n_dofs() const;
+
   const MPI_Comm &communicator() const { return mpi_communicator; }
 
 private:

@@ -17,8 +17,9 @@ namespace signorini
 {
 /// Writes solution_NNNN.vtu (and .pvtu) and keeps solution.pvd, the list of all of them, up to date.
 ///
-/// Point data: displacement, velocity (explicit runs), contact_pressure and gap (with contact; the pressure is projected
-/// so that it integrates to the force, the gap is at most one layer thickness and negative where bodies overlap).
+/// Point data: displacement, velocity (explicit runs), contact_pressure and gap (with contact; the pressure is the nodal
+/// contact force over the area of the node, so that it integrates to the force; the gap is at most one layer thickness
+/// and negative where bodies overlap).
 /// Cell data: body, von_mises_stress and the components of the true stress.
 template <int dim>
 class Fields

@@ -62,6 +62,7 @@ struct Results
   std::vector<contact::ContactSample<dim>> samples;
   std::vector<unsigned int> sample_bodies;
   std::vector<double> sample_thicknesses;
+  std::vector<double> nodal_pressures; ///< nodal force over nodal area, of the nodes with an area [Pa]
 
   bool has_ledger = false; ///< explicit runs
   EnergyLedger energy;

@@ -7,8 +7,8 @@
 
 namespace signorini
 {
-/// What the user reads while a run goes on: every line to log.txt, to the screen at most a line every few seconds where
-/// it is not a terminal. Silent on all ranks but the first.
+/// What the user reads while a run goes on: every line to log.txt, to the screen only so many as can be read, or a line
+/// every few seconds where it is not a terminal. Silent on all ranks but the first.
 class Progress
 {
 public:

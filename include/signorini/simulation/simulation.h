@@ -50,6 +50,7 @@ private:
   void append_contact(Statistics::Row &row) const;
   void finish(const std::string &status);
   void gather_samples();
+  void gather_nodal_pressures();
   void gather_extremes();
   void print_results();
   double memory_mb() const;

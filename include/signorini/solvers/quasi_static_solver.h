@@ -51,6 +51,7 @@ public:
 private:
   bool iterate(double time, State &state, const std::function<void(const NewtonReport &)> &report);
   void compute_residual(const State &state);
+  std::vector<double> body_norms(const Vector &values) const;
   double relative_residual(const State &state);
   double compute_round_off(const State &state) const;
   double total_energy() const;

@@ -3,6 +3,9 @@
 
 #include <deal.II/base/mpi.h>
 
+#include <algorithm>
+#include <set>
+
 namespace signorini
 {
 namespace
@@ -104,6 +107,36 @@ void ContactForce<dim>::add_tangent(TangentSystem &system) const
       system.constraints->distribute_local_to_global(matrix, zero, collect_dofs(*map, nodes), system.matrix,
                                                      system.right_hand_side);
     });
+}
+
+template <int dim>
+std::vector<SpatialVector<dim>> ContactForce<dim>::nodal_forces() const
+{
+  std::vector<SpatialVector<dim>> forces(map->surface().n_nodes(), SpatialVector<dim>::Zero());
+  potential.add_forces(forces);
+  MPI_Allreduce(MPI_IN_PLACE, forces.data(), static_cast<int>(dim * forces.size()), MPI_DOUBLE, MPI_SUM, communicator);
+  return forces;
+}
+
+template <int dim>
+std::vector<double> ContactForce<dim>::nodal_areas() const
+{
+  // A point counts once however many surfaces it is near.
+  std::set<std::pair<unsigned int, std::array<double, dim - 1>>> known;
+  std::vector<double> areas(map->surface().n_nodes(), 0.);
+  for (const contact::ContactSample<dim> &sample : potential.samples())
+  {
+    std::array<double, dim - 1> xi;
+    std::copy(sample.xi.begin(), sample.xi.end(), xi.begin());
+    if (!known.emplace(sample.facet, xi).second)
+      continue;
+    const Facet<dim> &facet = map->surface().facets[sample.facet];
+    const auto shape = contact::evaluate_facet_shape<dim>(facet.degree, sample.xi);
+    for (unsigned int i = 0; i < facet.n_nodes(); ++i)
+      areas[facet.nodes[i]] += shape.value[i] * sample.full_area;
+  }
+  MPI_Allreduce(MPI_IN_PLACE, areas.data(), static_cast<int>(areas.size()), MPI_DOUBLE, MPI_SUM, communicator);
+  return areas;
 }
 
 template <int dim>

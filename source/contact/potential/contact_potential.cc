@@ -13,6 +13,9 @@ namespace
 {
 /// Share of the skin up to which a gap counts as closed in the tangent.
 constexpr double verge = 1e-8;
+
+/// Cosine from which on a facet counts as facing the other surface.
+constexpr double facing = 0.1;
 } // namespace
 
 template <int dim>
@@ -321,11 +324,12 @@ std::vector<ContactSample<dim>> ContactPotential<dim>::samples() const
                               const FacetNodes<dim> contactor =
                                 gather_nodes(surface.facets[near.pair.facet], evaluated_positions);
                               const auto frame = evaluate_facet_frame(contactor, near.pair.xi);
-                              if (frame.area_normal.dot(near.foot.normal) >= 0.)
+                              if (frame.area_normal.dot(near.foot.normal) > -facing * frame.area_normal.norm())
                                 return;
                               const double depth = near.foot.depth;
                               all.push_back({near.pair.facet, near.pair.xi, near.foot.position, depth,
-                                             near.pair.stiffness * std::max(depth, 0.), near.pair.area});
+                                             near.pair.stiffness * std::max(depth, 0.), near.pair.area,
+                                             (near.target != nullptr ? 2. : 1.) * near.pair.area});
                             });
   return all;
 }

@@ -35,6 +35,13 @@ public:
   /// Of all ranks together.
   contact::ContactMeasures<dim> measure() const;
 
+  /// Force by node of the whole surface, without damping, the same on all ranks [N] (collective).
+  std::vector<SpatialVector<dim>> nodal_forces() const;
+
+  /// Area by node, ∫N dA over the sampled parts of the faces that face another surface, the same on all ranks [m²; m in
+  /// 2-D] (collective).
+  std::vector<double> nodal_areas() const;
+
   /// This rank's points.
   std::vector<contact::ContactSample<dim>> samples() const { return potential.samples(); }
 

@@ -37,5 +37,6 @@ struct ContactSample
   /// Undeformed area with which the point counts [m²; m in 2-D]: half of what it stands for where the other
   /// side deforms and is sampled too, so that pressure times area sums up to the resultant over both sides.
   double area = 0.;
+  double full_area = 0.; ///< undeformed area that it stands for [m²; m in 2-D]
 };
 } // namespace signorini::contact

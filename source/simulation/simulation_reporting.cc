@@ -90,6 +90,20 @@ void Simulation<dim>::gather_samples()
 }
 
 template <int dim>
+void Simulation<dim>::gather_nodal_pressures()
+{
+  for (const auto &term : forces.contacts)
+  {
+    const std::vector<SpatialVector<dim>> nodal_forces = term->nodal_forces();
+    const std::vector<double> areas = term->nodal_areas();
+    const double largest_area = areas.empty() ? 0. : *std::max_element(areas.begin(), areas.end());
+    for (unsigned int node = 0; node < areas.size(); ++node)
+      if (areas[node] > 1e-9 * largest_area)
+        results.nodal_pressures.push_back(nodal_forces[node].norm() / areas[node]);
+  }
+}
+
+template <int dim>
 void Simulation<dim>::gather_extremes()
 {
   constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -130,6 +144,7 @@ void Simulation<dim>::finish(const std::string &status)
   results.status = status;
   results.memory_peak_mb = memory_mb();
   gather_samples();
+  gather_nodal_pressures();
   gather_extremes();
   if (status == "ok")
     results.errors = compute_errors(results);

@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// What a Simulation builds and watches of contact.
+#include "signorini/simulation/simulation.h"
+
+#include "signorini/base/exceptions.h"
+
+#include <fmt/core.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+namespace signorini
+{
+namespace
+{
+template <int dim>
+contact::PotentialSettings make_settings(const Parameters &parameters)
+{
+  using Wanted = ContactParameters::Integration;
+  const ContactParameters &contact = *parameters.contact;
+  const bool is_explicit = std::holds_alternative<ExplicitParameters>(parameters.solver);
+  contact::PotentialSettings settings;
+  settings.penalty_factor = contact.penalty_factor;
+  settings.n_quadrature_points = contact.quadrature_points;
+  const bool is_by_faces = contact.integration == Wanted::automatic ? is_explicit
+                                                                    : contact.integration == Wanted::face_quadrature;
+  settings.integration = is_by_faces ? contact::Integration::face_quadrature : contact::Integration::face_segments;
+  if (contact.damping)
+    settings.damping_ratio = contact.damping->damping_ratio;
+
+  const auto find = [](const auto &list, const std::string &name)
+  {
+    return static_cast<unsigned int>(
+      std::find_if(list.begin(), list.end(), [&](const auto &entry) { return entry.name == name; }) - list.begin());
+  };
+  const unsigned int n_bodies = parameters.bodies.size();
+  for (const auto &[one, other] : contact.excluded_pairs)
+  {
+    const unsigned int first = find(parameters.bodies, one), second = find(parameters.bodies, other);
+    if (first < n_bodies && second < n_bodies)
+      settings.excluded_body_pairs.emplace_back(first, second);
+    else if (first < n_bodies)
+      settings.excluded_obstacle_pairs.emplace_back(first, find(parameters.obstacles, other));
+    else
+      settings.excluded_obstacle_pairs.emplace_back(second, find(parameters.obstacles, one));
+  }
+  return settings;
+}
+} // namespace
+
+template <int dim>
+void Simulation<dim>::build_contact()
+{
+  const contact::PotentialSettings settings = make_settings<dim>(parameters);
+  surface_map = std::make_unique<SurfaceMap<dim>>(scene, *discretization);
+  if (scene.n_bodies() > 1)
+    forces.contacts.push_back(
+      std::make_shared<ContactForce<dim>>("contact of bodies", false, *surface_map,
+                                          typename contact::ContactPotential<dim>::Obstacles(), settings, communicator));
+  if (!scene.obstacles.empty())
+  {
+    contact::PotentialSettings obstacles_only = settings;
+    for (unsigned int one = 0; one < scene.n_bodies(); ++one)
+      for (unsigned int other = 0; other < one; ++other)
+        obstacles_only.excluded_body_pairs.emplace_back(one, other);
+    forces.contacts.push_back(std::make_shared<ContactForce<dim>>("contact with obstacles", true, *surface_map,
+                                                                  scene.obstacles, obstacles_only, communicator));
+  }
+  if (settings.damping_ratio)
+    forces.damped_contacts = forces.contacts;
+}
+
+template <int dim>
+void Simulation<dim>::update_contact_measures()
+{
+  if (forces.contacts.empty())
+    return;
+  results.has_contact = true;
+  contact::ContactMeasures<dim> total = forces.contacts.front()->measure();
+  for (std::size_t i = 1; i < forces.contacts.size(); ++i)
+  {
+    const contact::ContactMeasures<dim> other = forces.contacts[i]->measure();
+    if (other.max_penetration_over_thickness > total.max_penetration_over_thickness)
+    {
+      total.max_penetration_over_thickness = other.max_penetration_over_thickness;
+      total.deepest_facet = other.deepest_facet;
+      total.deepest_position = other.deepest_position;
+    }
+    total.max_penetration = std::max(total.max_penetration, other.max_penetration);
+    total.max_pressure = std::max(total.max_pressure, other.max_pressure);
+    total.max_stiffness = std::max(total.max_stiffness, other.max_stiffness);
+    total.area += other.area;
+    total.n_pairs += other.n_pairs;
+    total.n_active += other.n_active;
+    for (unsigned int body = 0; body < total.resultants.size(); ++body)
+      total.resultants[body] += other.resultants[body];
+  }
+  results.contact = total;
+  results.max_penetration_over_thickness =
+    std::max(results.max_penetration_over_thickness, total.max_penetration_over_thickness);
+  results.max_n_pairs = std::max(results.max_n_pairs, total.n_pairs);
+}
+
+template <int dim>
+void Simulation<dim>::check_initial_overlap()
+{
+  constexpr double allowed = 0.1;
+  supports->impose(0., state.displacement);
+  discretization->distribute(state.displacement);
+  forces.elasticity->update(state);
+  double energy = 0.;
+  for (const auto &contact : forces.contacts)
+  {
+    contact->renew(state);
+    contact->update(state);
+    energy += contact->energy();
+  }
+  update_contact_measures();
+  if (!results.has_contact || results.max_penetration_over_thickness <= allowed)
+    return;
+  const auto &deepest = results.contact;
+  const std::string where = fmt::format("({:.6g})", fmt::join(deepest.deepest_position.data(),
+                                                              deepest.deepest_position.data() + dim, ", "));
+  if (!parameters.contact->allow_initial_overlap)
+    throw InputError(
+      Complaint(fmt::format("body '{}' overlaps something by {:.3g} of its element size before the run begins",
+                            scene.body_names[surface_map->surface().facets[deepest.deepest_facet].body],
+                            deepest.max_penetration_over_thickness))
+        .at(where)
+        .expected(fmt::format("at most {} of an element", allowed))
+        .advise("move the bodies apart, or set Contact/Allow initial overlap = true"));
+  progress.say(fmt::format("Initial overlap: {:.3g} of an element at {}, storing {:.6g} J",
+                           deepest.max_penetration_over_thickness, where, energy));
+}
+
+template <int dim>
+void Simulation<dim>::check_penetration()
+{
+  constexpr double limit = 0.5;
+  if (results.contact.max_penetration_over_thickness <= limit)
+    return;
+  const auto &deepest = results.contact;
+  throw NumericalError(
+    Complaint(fmt::format("body '{}' sinks into another by {:.3g} of its element size at t = {:.6g}",
+                          scene.body_names[surface_map->surface().facets[deepest.deepest_facet].body],
+                          deepest.max_penetration_over_thickness, state.time))
+      .at(fmt::format("({:.6g})", fmt::join(deepest.deepest_position.data(), deepest.deepest_position.data() + dim, ", ")))
+      .expected(fmt::format("at most {} of an element: deeper, it could pass through", limit))
+      .advise("raise Contact/Penalty factor, refine, or load more slowly"));
+}
+
+template <int dim>
+void Simulation<dim>::append_contact(Statistics::Row &row) const
+{
+  const auto &contact = results.contact;
+  for (unsigned int d = 0; d < dim; ++d)
+    row.emplace_back(fmt::format("contact force {} [N]", "xyz"[d]), contact.resultants.at(0)[d]);
+  row.emplace_back("contact area [m2]", contact.area);
+  row.emplace_back("max penetration [m]", contact.max_penetration);
+  row.emplace_back("max penetration over h [1]", contact.max_penetration_over_thickness);
+  row.emplace_back("max pressure [Pa]", contact.max_pressure);
+  row.emplace_back("pairs [1]", contact.n_active);
+}
+
+template class Simulation<2>;
+template class Simulation<3>;
+} // namespace signorini

@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// The loop over time steps.
+#include "signorini/simulation/simulation.h"
+
+#include "signorini/base/exceptions.h"
+#include "signorini/physics/mass.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace signorini
+{
+template <int dim>
+void Simulation<dim>::run_explicit(const ExplicitParameters &solver_parameters)
+{
+  ExplicitSolver<dim> solver(*discretization, *supports, scene.materials, forces, solver_parameters, run_time);
+  solver.start(state);
+  const double end = solver_parameters.end_time;
+  const unsigned int n_rows = std::max(1u, parameters.output.n_statistics);
+  const unsigned int n_fields = std::max(1u, parameters.output.n_fields);
+  record_explicit(solver, 0., end);
+  write_fields();
+  // Rows and fields are written by the first step that reaches their time: outputs do not shape the steps.
+  unsigned int row = 1, field = 1;
+  while (state.time < end)
+  {
+    const double remaining = end - state.time, stable = solver.stable_step();
+    const double time_step = remaining > 2. * stable ? stable : remaining / std::ceil(remaining / stable - 1e-9);
+    solver.step(time_step, state);
+    if (end - state.time < 1e-9 * time_step)
+      state.time = end;
+    ++results.n_steps;
+    update_contact_measures();
+    check_penetration();
+    if (state.time >= end * row / n_rows)
+    {
+      solver.take_stock(state);
+      record_explicit(solver, time_step, end);
+      row = 1 + static_cast<unsigned int>(std::floor(state.time / end * n_rows));
+    }
+    if (state.time >= end * field / n_fields)
+    {
+      write_fields();
+      solver.update_bulk_bound();
+      field = 1 + static_cast<unsigned int>(std::floor(state.time / end * n_fields));
+    }
+  }
+}
+
+template <int dim>
+void Simulation<dim>::record_explicit(const ExplicitSolver<dim> &solver, double time_step, double end)
+{
+  const EnergyLedger &energy = solver.energy();
+  const MomentumLedger &momentum = solver.momentum();
+  results.has_ledger = true;
+  results.energy = energy;
+  results.momentum = momentum;
+  results.max_ledger_residual = std::max(results.max_ledger_residual, std::abs(energy.residual()));
+  results.max_linear_drift = std::max(results.max_linear_drift, momentum.linear_drift());
+  results.max_angular_drift = std::max(results.max_angular_drift, momentum.angular_drift());
+  update_contact_measures();
+  results.history.push_back({state.time, record_bodies()});
+
+  Statistics::Row row{{"time [s]", state.time},
+                      {"time step [s]", time_step},
+                      {"kinetic energy [J]", energy.kinetic},
+                      {"elastic energy [J]", energy.elastic},
+                      {"contact energy [J]", energy.contact},
+                      {"dissipated [J]", energy.dissipated},
+                      {"work [J]", energy.work_of_loads + energy.work_of_supports},
+                      {"contact renewals [J]", energy.contact_renewals},
+                      {"ledger residual [1]", energy.residual()},
+                      {"linear momentum drift [1]", momentum.linear_drift()},
+                      {"angular momentum drift [1]", momentum.angular_drift()}};
+  if (results.has_contact)
+    append_contact(row);
+  for (unsigned int body = 0; body < scene.n_bodies(); ++body)
+    for (unsigned int d = 0; d < dim; ++d)
+      row.emplace_back(fmt::format("velocity {} of {} [m/s]", "xyz"[d], scene.body_names[body]),
+                       results.history.back().bodies[body].velocity[d]);
+  if (statistics)
+    statistics->write(row);
+  progress.step(fmt::format("step {}  t {:.5g}  dt {:.3e}  pairs {}  penetration/h {:.2e}  ledger {:+.2e}",
+                            results.n_steps, state.time, time_step, results.contact.n_active,
+                            results.contact.max_penetration_over_thickness, energy.residual()),
+                state.time / end);
+  if (!std::isfinite(energy.kinetic + energy.elastic))
+    throw NumericalError(
+      Complaint(fmt::format("the motion is no longer a number at t = {:.6g}: an element was turned inside out",
+                            state.time))
+        .advise("look at the last fields; refine, or lower the step factors"));
+  const double tolerance = std::get<ExplicitParameters>(parameters.solver).ledger_tolerance;
+  if (std::abs(energy.residual()) > tolerance)
+    throw NumericalError(Complaint(fmt::format("the energy ledger does not close at t = {:.6g}", state.time))
+                           .found(fmt::format("{:+.3g} of the largest energy", energy.residual()))
+                           .expected(fmt::format("at most {}", tolerance))
+                           .advise("lower Explicit/Contact step factor or Contact/Penalty factor, or refine"));
+}
+
+template <int dim>
+void Simulation<dim>::set_initial_motion()
+{
+  state.velocity = discretization->make_vector();
+  const Vector mass = make_lumped_mass(scene.materials, *discretization);
+  std::vector<double> sums((dim + 1) * scene.n_bodies(), 0.);
+  for (const OwnedNode<dim> &node : discretization->owned_nodes)
+  {
+    const double m = mass.local_element(node.dofs[0]);
+    sums[(dim + 1) * node.body] += m;
+    for (unsigned int d = 0; d < dim; ++d)
+      sums[(dim + 1) * node.body + 1 + d] += m * node.position[d];
+  }
+  dealii::Utilities::MPI::sum(sums, communicator, sums);
+  for (const OwnedNode<dim> &node : discretization->owned_nodes)
+  {
+    std::array<double, 3> arm{};
+    const double *body_sums = &sums[(dim + 1) * node.body];
+    for (unsigned int d = 0; d < dim; ++d)
+      arm[d] = node.position[d] - body_sums[1 + d] / body_sums[0];
+    const Triple &spin = scene.initial_spin[node.body];
+    for (unsigned int d = 0; d < dim; ++d)
+      state.velocity.local_element(node.dofs[d]) = scene.initial_velocity[node.body][d] +
+                                                   spin[(d + 1) % 3] * arm[(d + 2) % 3] -
+                                                   spin[(d + 2) % 3] * arm[(d + 1) % 3];
+  }
+}
+
+template <int dim>
+std::vector<BodyRecord> Simulation<dim>::record_bodies() const
+{
+  std::vector<BodyRecord> records(scene.n_bodies());
+  for (unsigned int body = 0; body < scene.n_bodies() && results.has_contact; ++body)
+    for (unsigned int d = 0; d < dim; ++d)
+      records[body].contact_force[d] = results.contact.resultants[body][d];
+  if (state.velocity.size() == 0)
+    return records;
+  const Vector mass = make_lumped_mass(scene.materials, *discretization);
+  std::vector<double> momenta(dim * scene.n_bodies(), 0.);
+  for (const OwnedNode<dim> &node : discretization->owned_nodes)
+    for (unsigned int d = 0; d < dim; ++d)
+      momenta[dim * node.body + d] += mass.local_element(node.dofs[d]) * state.velocity.local_element(node.dofs[d]);
+  dealii::Utilities::MPI::sum(momenta, communicator, momenta);
+  for (unsigned int body = 0; body < scene.n_bodies(); ++body)
+    for (unsigned int d = 0; d < dim; ++d)
+      records[body].velocity[d] = momenta[dim * body + d] / results.body_masses[body];
+  return records;
+}
+
+template class Simulation<2>;
+template class Simulation<3>;
+} // namespace signorini
