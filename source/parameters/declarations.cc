@@ -155,6 +155,11 @@ std::string deciding_choice(const ParameterText &text, const Declarations &in_us
 
 void check_names_and_values(const ParameterText &text, const Declarations &everything)
 {
+  // The names of bodies and obstacles first: which subsections are valid follows from them.
+  for (const ParameterEntry &entry : text.entries)
+    if (const Declaration *const declaration = everything.find(entry.path, entry.key);
+        declaration != nullptr && entry.path.empty())
+      check_value(entry, *declaration);
   for (const ParameterSubsection &subsection : text.subsections)
     check_name(subsection, everything);
   for (const ParameterEntry &entry : text.entries)

@@ -11,6 +11,7 @@
 
 #include <fmt/format.h>
 
+#include <memory>
 #include <ostream>
 
 namespace signorini
@@ -23,6 +24,22 @@ const NameTable<ParametersFormat> &formats()
       {"prm", ParametersFormat::prm}, {"json", ParametersFormat::json}, {"md", ParametersFormat::markdown}};
   return table;
 }
+
+/// Shows deal.II's printers the range of an entry. Values have been checked before.
+class RangePattern : public dealii::Patterns::PatternBase
+{
+public:
+  explicit RangePattern(const ValueRange &values) : range(values) {}
+  bool match(const std::string & /*value*/) const override { return true; }
+  std::string description(const OutputStyle /*style*/ = Machine) const override
+  {
+    return range.description();
+  }
+  std::unique_ptr<PatternBase> clone() const override { return std::make_unique<RangePattern>(range); }
+
+private:
+  ValueRange range;
+};
 
 /// A file that names one body and one obstacle, so that all subsections are declared.
 ParameterText sample_text()
@@ -50,7 +67,7 @@ void fill_handler(const Declarations &declarations, const ParameterText &text,
     const std::vector<std::string> path = split(declaration.path, '/');
     for (const std::string &part : path)
       handler.enter_subsection(part);
-    handler.declare_entry(declaration.key, declaration.default_value, dealii::Patterns::Anything(),
+    handler.declare_entry(declaration.key, declaration.default_value, RangePattern(declaration.range),
                           documentation(declaration));
     handler.set(declaration.key, text.value(declaration.path, declaration.key, declaration.default_value));
     for (std::size_t depth = 0; depth < path.size(); ++depth)

@@ -23,8 +23,7 @@ void add_options(CLI::App &app, CommandLine &command_line)
       ->type_name("prm|json|md");
   app.add_option("--set", command_line.overrides, "Override an entry of the file; may be repeated")
       ->type_name("SECTION/KEY=VALUE")
-      ->expected(1)
-      ->take_all();
+      ->allow_extra_args(false);
   app.add_option("--output", command_line.output, "Directory of the results")->type_name("DIR");
   app.add_flag("--quiet", command_line.quiet, "Print errors only");
   app.set_version_flag("--version", "signorini " + program_version());
