@@ -61,12 +61,13 @@ void check_formula(const PlacedFormula &formula, const std::vector<Triple> &poin
   for (const double t : {0., end_time})
     for (const Triple &x : points)
       if (const double value = expression.value(x, t); !std::isfinite(value))
-        throw InputError(Complaint(fmt::format("the expression is {} at x = {}, y = {}, z = {}, t = {}",
-                                               value, x[0], x[1], x[2], t))
-                             .at(formula.where)
-                             .found(formula.name + " = " + formula.formula)
-                             .expected("finite values wherever it is used")
-                             .advise("correct the formula, or restrict it with if(condition, value, other)"));
+        throw InputError(
+            Complaint(fmt::format("the expression is {} at x = {}, y = {}, z = {}, t = {}",
+                                  std::isnan(value) ? "not a number" : "infinite", x[0], x[1], x[2], t))
+                .at(formula.where)
+                .found(formula.name + " = " + formula.formula)
+                .expected("finite values wherever it is used")
+                .advise("correct the formula, or restrict it with if(condition, value, other)"));
 }
 
 std::string place_of(const ParameterText &text, const std::string &path, const std::string &key)

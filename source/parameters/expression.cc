@@ -2,11 +2,13 @@
 #include "signorini/parameters/expression.h"
 
 #include "signorini/base/exceptions.h"
+#include "signorini/parameters/strings.h"
 
 #include <deal.II/base/function_parser.h>
 #include <deal.II/base/numbers.h>
 
 #include <cctype>
+#include <iostream>
 #include <regex>
 #include <sstream>
 #include <vector>
@@ -57,12 +59,29 @@ void check_silent_mistakes(const std::string &formula)
     reject(formula, "uses random numbers", "a run must be repeatable: use a formula of x, y, z, t");
 }
 
+/// Keeps deal.II from printing the fault itself, on every rank.
+class SilentErrorStream
+{
+public:
+  SilentErrorStream() : original(std::cerr.rdbuf(ignored.rdbuf())) {}
+  ~SilentErrorStream() { std::cerr.rdbuf(original); }
+  SilentErrorStream(const SilentErrorStream &) = delete;
+  SilentErrorStream &operator=(const SilentErrorStream &) = delete;
+
+private:
+  std::ostringstream ignored;
+  std::streambuf *original;
+};
+
 /// The sentence of muParser inside a deal.II exception.
 std::string parser_message(const dealii::ExceptionBase &error)
 {
   std::ostringstream stream;
   error.print_info(stream);
-  return std::regex_replace(stream.str(), std::regex("\\s+"), " ");
+  std::smatch sentence;
+  const std::string text = stream.str();
+  return std::regex_search(text, sentence, std::regex("parser said: *<?([^\\n>]*)")) ? sentence[1].str()
+                                                                                     : trim(text);
 }
 } // namespace
 
@@ -72,12 +91,13 @@ Expression::Expression(const std::string &formula)
   check_silent_mistakes(formula);
   try
   {
+    const SilentErrorStream silence;
     parser->initialize("x,y,z,t", formula, {{"pi", dealii::numbers::PI}}, true);
     parser->value(dealii::Point<3>());
   }
   catch (const dealii::ExceptionBase &error)
   {
-    throw InputError(Complaint("the expression cannot be understood:" + parser_message(error))
+    throw InputError(Complaint("the expression cannot be understood: " + parser_message(error))
                          .found("'" + formula + "'")
                          .expected("a muParser formula of x, y, z, t, pi, such as 0.1*sin(2*pi*t)")
                          .advise("correct the formula"));

@@ -52,6 +52,8 @@ std::string describe_bounds(const ValueRange &range)
 {
   const ValueRange unbounded;
   std::string result;
+  if (range.kind == ValueRange::Kind::integer)
+    return fmt::format(" from {} to {}", range.lower, range.upper);
   if (range.lower > unbounded.lower)
     result += fmt::format(" {} {}", range.lower_excluded ? ">" : "≥", range.lower);
   if (range.upper < unbounded.upper)
@@ -106,7 +108,7 @@ std::string ValueRange::description() const
   switch (kind)
   {
   case Kind::text:
-    return "a text";
+    return "any text";
   case Kind::names:
     return "different names of letters, digits, _ and -, separated by commas";
   case Kind::boolean:

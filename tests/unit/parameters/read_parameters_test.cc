@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "signorini/parameters/read_parameters.h"
+
+#include "signorini/base/exceptions.h"
+#include "signorini/parameters/print_parameters.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+namespace signorini
+{
+namespace
+{
+std::string data_file(const std::string &name)
+{
+  return std::string(SIGNORINI_UNIT_DATA) + "/" + name;
+}
+
+std::string printed(const ParameterText &text)
+{
+  std::ostringstream stream;
+  write_parameters_used(text, stream);
+  return stream.str();
+}
+
+TEST(ReadParameters, MinimalFileHasDefaults)
+{
+  const Parameters parameters = read_parameters(read_parameter_text(data_file("minimal.prm")));
+  EXPECT_EQ(parameters.dimension, 3u);
+  EXPECT_EQ(parameters.bodies.at(0).mesh.upper_corner, (Triple{1., 1., 1.}));
+  EXPECT_EQ(parameters.bodies.at(0).material.density, 0.);
+  EXPECT_EQ(parameters.bodies.at(0).supports.at(0).displacement[2].value(), "-0.001");
+  EXPECT_FALSE(parameters.bodies.at(0).supports.at(0).displacement[0]);
+  EXPECT_EQ(parameters.contact.value().penalty_factor, ContactParameters().penalty_factor);
+  EXPECT_TRUE(std::holds_alternative<QuasiStaticParameters>(parameters.solver));
+  EXPECT_FALSE(parameters.exact_solution);
+  EXPECT_EQ(parameters.output.directory, "output/minimal");
+}
+
+TEST(ReadParameters, FillsTheStructs)
+{
+  const Parameters parameters = read_parameters(read_parameter_text(data_file("full.prm")));
+  const BodyParameters &ball = parameters.bodies.at(0);
+  EXPECT_EQ(ball.name, "ball");
+  EXPECT_EQ(ball.mesh.shape, MeshParameters::Shape::ball);
+  EXPECT_EQ(ball.mesh.part, MeshParameters::Part::orthant);
+  EXPECT_EQ(ball.mesh.grading.value().levels, 2u);
+  EXPECT_EQ(ball.placement.shift, (Triple{0., 0., 1.}));
+  EXPECT_EQ(ball.material.model, MaterialParameters::Model::neo_hookean);
+  EXPECT_EQ(ball.initial_spin, (Triple{0., 0., 1.}));
+  EXPECT_EQ(parameters.bodies.at(1).loads.at(0).traction[2], "-1e3*sin(2*pi*t)");
+  EXPECT_EQ(parameters.gravity, (Triple{0., 0., -9.81}));
+  EXPECT_EQ(parameters.contact.value().excluded_pairs.at(0),
+            std::pair(std::string("block"), std::string("floor")));
+  EXPECT_EQ(parameters.contact.value().damping.value().damping_ratio, 0.1);
+  EXPECT_EQ(std::get<ExplicitParameters>(parameters.solver).end_time, 0.1);
+}
+
+TEST(ReadParameters, DefaultsAreThoseOfTheStructs)
+{
+  const Parameters parameters = read_parameters(read_parameter_text(data_file("minimal.prm")));
+  const auto &read = std::get<QuasiStaticParameters>(parameters.solver);
+  const QuasiStaticParameters plain;
+  EXPECT_EQ(read.end_time, plain.end_time);
+  EXPECT_EQ(read.load_steps, plain.load_steps);
+  EXPECT_EQ(read.tolerance, plain.tolerance);
+  EXPECT_EQ(read.max_iterations, plain.max_iterations);
+  EXPECT_EQ(read.max_bisections, plain.max_bisections);
+  EXPECT_EQ(parameters.contact.value().quadrature_points, ContactParameters().quadrature_points);
+  EXPECT_EQ(parameters.output.n_fields, OutputParameters().n_fields);
+  EXPECT_EQ(parameters.output.n_statistics, OutputParameters().n_statistics);
+}
+
+TEST(ReadParameters, PrintedFileReadsTheSame)
+{
+  for (const std::string name : {"minimal.prm", "full.prm"})
+  {
+    const ParameterText text = read_parameter_text(data_file(name));
+    const std::string first = printed(text);
+    const ParameterText again = scan_parameter_text(first, data_file(name));
+    EXPECT_NO_THROW(read_parameters(again)) << name;
+    EXPECT_EQ(printed(again), first);
+  }
+}
+
+TEST(ReadParameters, TwoDimensions)
+{
+  ParameterText text = scan_parameter_text("set Dimension = 2\n"
+                                           "set Bodies = disk\n"
+                                           "set Gravity = 0, -9.81\n"
+                                           "subsection Body disk\n"
+                                           "  subsection Mesh\n"
+                                           "    set Shape = ball\n"
+                                           "  end\n"
+                                           "  subsection Material\n"
+                                           "    set Model = neo-Hookean\n"
+                                           "    set Young's modulus = 1\n"
+                                           "    set Poisson's ratio = 0\n"
+                                           "    set Density = 1\n"
+                                           "  end\n"
+                                           "  subsection Initial motion\n"
+                                           "    set Spin = 3\n"
+                                           "  end\n"
+                                           "end\n"
+                                           "subsection Explicit\n"
+                                           "end\n",
+                                           "a.prm");
+  const Parameters parameters = read_parameters(text);
+  EXPECT_EQ(parameters.gravity, (Triple{0., -9.81, 0.}));
+  EXPECT_EQ(parameters.bodies.at(0).initial_spin, (Triple{0., 0., 3.}));
+  apply_override(text, "Gravity=0, -9.81, 0");
+  EXPECT_NO_THROW(read_parameters(text));
+  apply_override(text, "Body disk/Support surface/z=0");
+  EXPECT_THROW(read_parameters(text), InputError);
+}
+
+TEST(ReadParameters, LeavesNoDirectoryBehind)
+{
+  ParameterText text = read_parameter_text(data_file("minimal.prm"));
+  apply_override(text, "Output/Directory=a_directory_of_the_test/inside");
+  read_parameters(text);
+  EXPECT_FALSE(std::filesystem::exists("a_directory_of_the_test"));
+}
+
+TEST(PrintParameters, NamesEveryUnit)
+{
+  std::ostringstream stream;
+  print_parameters(ParametersFormat::markdown, stream);
+  EXPECT_NE(stream.str().find("| Young's modulus | Pa | required | a number > 0 |"), std::string::npos);
+  EXPECT_NE(stream.str().find("## Body NAME/Mesh/Grading"), std::string::npos);
+}
+
+TEST(PrintParameters, ManualIsCurrent)
+{
+  const std::ifstream file(data_file("../../../doc/parameters.md"));
+  std::ostringstream manual;
+  std::ostringstream generated;
+  manual << file.rdbuf();
+  print_parameters(ParametersFormat::markdown, generated);
+  EXPECT_EQ(manual.str(), generated.str()) << "run signorini --parameters=md > doc/parameters.md";
+}
+} // namespace
+} // namespace signorini
