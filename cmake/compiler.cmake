@@ -3,7 +3,7 @@
 
 add_library(signorini_warnings INTERFACE)
 target_compile_options(signorini_warnings INTERFACE
-  -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Wnon-virtual-dtor
+  -Wall -Wextra -Wpedantic -Wshadow -Wfloat-conversion -Wnon-virtual-dtor
   -Woverloaded-virtual -Wnull-dereference -Wno-unused-local-typedefs -Wno-missing-braces -Werror)
 
 if(SIGNORINI_SANITIZE)

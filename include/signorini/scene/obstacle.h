@@ -4,6 +4,8 @@
 #include "signorini/base/spatial_vector.h"
 
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace signorini
 {
@@ -15,9 +17,9 @@ public:
   /// Where a point stands with respect to the obstacle's surface.
   struct Foot
   {
-    double depth = 0.;                   ///< positive inside the obstacle [m]
-    SpatialVector<dim> normal;           ///< outward unit normal, −∇depth
-    SpatialTensor<dim> depth_hessian;    ///< ∇∇depth [1/m]
+    double depth = 0.;                ///< positive inside the obstacle [m]
+    SpatialVector<dim> normal;        ///< outward unit normal, −∇depth
+    SpatialTensor<dim> depth_hessian; ///< ∇∇depth [1/m]
   };
 
   explicit Obstacle(std::string obstacle_name) : name_(std::move(obstacle_name)) {}
@@ -28,31 +30,45 @@ public:
   const std::string &name() const { return name_; }
   virtual Foot find_foot(const SpatialVector<dim> &x) const = 0;
 
+  /// Overwrites `feet` with one foot a point. An obstacle that meets many points should override it, so that
+  /// a batch costs one virtual call.
+  virtual void find_feet(const std::vector<SpatialVector<dim>> &points, std::vector<Foot> &feet) const;
+
 private:
   std::string name_;
 };
 
 /// The half-space { x : (x − point)·normal ≤ 0 }.
 template <int dim>
-class RigidPlane : public Obstacle<dim>
+class RigidPlane final : public Obstacle<dim>
 {
 public:
+  using Foot = typename Obstacle<dim>::Foot;
+
   /// `outward_normal` need not have unit length; it points to where bodies may be.
-  RigidPlane(std::string obstacle_name, const SpatialVector<dim> &point, const SpatialVector<dim> &outward_normal);
-  typename Obstacle<dim>::Foot find_foot(const SpatialVector<dim> &x) const override;
+  /// Throws std::invalid_argument if it is zero or not finite.
+  RigidPlane(std::string obstacle_name, const SpatialVector<dim> &plane_point,
+             const SpatialVector<dim> &outward_normal);
+  Foot find_foot(const SpatialVector<dim> &x) const override;
+  void find_feet(const std::vector<SpatialVector<dim>> &points, std::vector<Foot> &feet) const override;
 
 private:
   SpatialVector<dim> point;
   SpatialVector<dim> normal;
 };
 
-/// The ball (disk in 2-D) of the given radius.
+/// The ball (disk in 2-D) of the given radius. At its very centre, where depth has no derivative, the normal
+/// is the last axis and the Hessian zero.
 template <int dim>
-class RigidSphere : public Obstacle<dim>
+class RigidSphere final : public Obstacle<dim>
 {
 public:
-  RigidSphere(std::string obstacle_name, const SpatialVector<dim> &centre, double radius);
-  typename Obstacle<dim>::Foot find_foot(const SpatialVector<dim> &x) const override;
+  using Foot = typename Obstacle<dim>::Foot;
+
+  /// Throws std::invalid_argument unless the radius is positive and finite.
+  RigidSphere(std::string obstacle_name, const SpatialVector<dim> &sphere_centre, double sphere_radius);
+  Foot find_foot(const SpatialVector<dim> &x) const override;
+  void find_feet(const std::vector<SpatialVector<dim>> &points, std::vector<Foot> &feet) const override;
 
 private:
   SpatialVector<dim> centre;

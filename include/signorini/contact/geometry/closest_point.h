@@ -9,14 +9,15 @@ namespace signorini::contact
 template <int dim>
 struct ClosestPoint
 {
-  LocalPoint<dim> xi;                  ///< its local coordinates, in [0, 1]
-  SpatialVector<dim> position;         ///< the foot y(ξ)
-  std::array<bool, dim - 1> free{};    ///< per local direction: not held at 0 or 1 (interior: all true; corner: none)
-  double distance = 0.;                ///< |x − y|
+  LocalPoint<dim> xi;          ///< its local coordinates, in [0, 1]
+  SpatialVector<dim> position; ///< the foot y(ξ)
+  std::array<bool, dim - 1>
+      free{};           ///< per local direction: not held at 0 or 1 (interior: all true; corner: none)
+  double distance = 0.; ///< |x − y|
 };
 
-/// Minimises |x − y(ξ)| over the facet, its edges and its corners, to round-off. Robust for warped and strongly
-/// curved facets: starts from several points where one start is not safe.
+/// Minimises |x − y(ξ)| over the facet, its edges and its corners, to round-off. Robust for warped and
+/// strongly curved facets: starts from several points where one start is not safe.
 template <int dim>
 ClosestPoint<dim> find_closest_point(const FacetNodes<dim> &nodes, const SpatialVector<dim> &x);
 } // namespace signorini::contact

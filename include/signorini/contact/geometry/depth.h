@@ -16,18 +16,25 @@ struct SurfaceFoot
   double depth = 0.; ///< signed: positive below the surface (inside the body), negative outside [m]
 };
 
-/// Finds the foot of `x` on the surface that the facets `candidates[0 … n_candidates)` form (all of one body), and
-/// the sign of its depth.
+/// Finds the foot of `x` on the surface that the facets `candidates[0 … n_candidates)` form (all of one
+/// body), and the sign of its depth.
 ///
-/// The sign comes from the normal of the surface at the foot. Where the foot lies on an edge or a corner shared by
-/// several facets, that normal is the sum of the facets' unit normals weighted with the angle each of them spans there
-/// (J. A. Bærentzen, H. Aanæs, Signed distance computation using the angle weighted pseudonormal, 2005): a facet
-/// whose closest point lies at the same place (to round-off of the facet's size) counts with its corner angle at
-/// a corner, π on an edge, 2π inside; this needs no adjacency and so holds at hanging nodes too.
+/// The sign comes from the normal of the surface at the foot. Where the foot lies on an edge or a corner
+/// shared by several facets, that normal is the sum of the facets' unit normals weighted with the angle each
+/// of them spans there (J. A. Bærentzen, H. Aanæs, Signed distance computation using the angle weighted
+/// pseudonormal, 2005): a facet whose closest point lies at the same place (to round-off of the facet's size)
+/// counts with its corner angle at a corner, π on an edge, 2π inside; this needs no adjacency and so holds at
+/// hanging nodes too.
 ///
-/// Facets farther than `cutoff` may be skipped; if all are, returns a foot with depth −∞.
+/// Of equally close facets the first candidate is taken. All candidates that hold the foot take part in the
+/// sign, so the list must hold every facet within the foot's distance of `x`.
+///
+/// Where the facets at the foot do not close around it (the rim of an open surface), only a point within 45°
+/// of being right below counts as inside; beside the rim there is no inside.
+///
+/// Facets farther than `cutoff` are left out; if all are, returns a foot with depth −∞.
 template <int dim>
-SurfaceFoot<dim> find_foot(const std::vector<Facet<dim>> &facets, const std::vector<SpatialVector<dim>> &positions,
-                           const unsigned int *candidates, unsigned int n_candidates,
-                           const SpatialVector<dim> &x, double cutoff);
+SurfaceFoot<dim> find_foot(const std::vector<Facet<dim>> &facets,
+                           const std::vector<SpatialVector<dim>> &positions, const unsigned int *candidates,
+                           unsigned int n_candidates, const SpatialVector<dim> &x, double cutoff);
 } // namespace signorini::contact

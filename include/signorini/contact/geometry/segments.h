@@ -19,14 +19,16 @@ struct FacetQuadraturePoint
 template <int dim>
 std::vector<FacetQuadraturePoint<dim>> make_gauss_points(unsigned int n_points);
 
-/// Gauss points on the part of facet `contactor` that `target` covers when both are seen along the contactor's
-/// mean normal: `target`'s outline is clipped against `contactor`'s, the polygon cut into triangles, and points of an
-/// exact rule of order 2·`n_points` − 1 placed in each and mapped back to the contactor's local square.
+/// Gauss points on the part of facet `contactor` that `target` covers when both are seen along the
+/// contactor's mean normal: `target`'s outline is clipped against `contactor`'s, the polygon cut into
+/// triangles, and points of an exact rule of order 2·`n_points` − 1 placed in each and mapped back to the
+/// contactor's local square.
 ///
-/// Facets of degree 2 are treated as their (straight-edged) sub-facets, so that the outline follows the mid-side nodes.
-/// Returns nothing where they do not overlap, where the mean normals do not oppose each other, or where the overlap is
-/// below 1e-14 of the contactor.
+/// Facets of degree 2 are treated as their (straight-edged) sub-facets, so that the outline follows the
+/// mid-side nodes. Returns nothing where they do not overlap, where the mean normals do not oppose each
+/// other, or where the overlap is below 1e-14 of the contactor. Weights are measures in ξ: over targets that
+/// cover the contactor once they sum to 1.
 template <int dim>
-std::vector<FacetQuadraturePoint<dim>> make_segment_points(const FacetNodes<dim> &contactor, const FacetNodes<dim> &target,
-                                                           unsigned int n_points);
+std::vector<FacetQuadraturePoint<dim>>
+make_segment_points(const FacetNodes<dim> &contactor, const FacetNodes<dim> &target, unsigned int n_points);
 } // namespace signorini::contact

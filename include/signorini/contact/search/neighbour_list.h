@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
-#include "signorini/discretization/contact_surface.h"
+#include "signorini/contact/search/facet_box.h"
 
 #include <functional>
 #include <vector>
@@ -17,6 +17,8 @@ struct FacetNeighbours
 };
 
 /// Pairs of near facets of different bodies, valid until some node has moved half the skin.
+///
+/// The order of neighbours() and of their candidates depends on the surface's numbering only.
 template <int dim>
 class NeighbourList
 {
@@ -25,15 +27,39 @@ public:
   using IsAllowedPair = std::function<bool(unsigned int body, unsigned int other_body)>;
 
   /// `reach` [m], one a facet: how deep or far a point of that facet may see. `skin` > 0 [m].
-  NeighbourList(const ContactSurface<dim> &surface, std::vector<double> reach, double skin, IsAllowedPair is_allowed);
+  /// `surface` must outlive this object. Throws std::invalid_argument if these do not fit together.
+  NeighbourList(const ContactSurface<dim> &contact_surface, std::vector<double> facet_reach,
+                double skin_thickness, IsAllowedPair is_allowed_pair);
 
   /// True before the first build, and as soon as any node moved more than skin/2 since.
   bool is_stale(const Positions &positions) const;
 
-  /// Finds, for every owned facet, all facets of other bodies whose bounding boxes come within reach + skin of its own.
+  /// Finds, for every owned facet, all facets of other bodies whose bounding boxes come within reach + skin
+  /// of its own (the skin a little wider for facets of degree 2, whose points may move farther than their
+  /// nodes).
   void rebuild(const Positions &positions);
 
-  const std::vector<FacetNeighbours> &neighbours() const;
-  unsigned int n_rebuilds() const;
+  const std::vector<FacetNeighbours> &neighbours() const { return neighbours_; }
+  unsigned int n_rebuilds() const { return n_rebuilds_; }
+
+private:
+  struct Boxes;
+
+  /// How far from its box a facet's neighbours must be looked for.
+  double search_distance(unsigned int facet) const;
+  std::vector<unsigned int> find_near_bodies(unsigned int body, const Boxes &boxes) const;
+  void add_neighbours_of_body(unsigned int body, Boxes &boxes);
+  void add_neighbours_of_facet(unsigned int facet, unsigned int target_body, Boxes &boxes);
+
+  const ContactSurface<dim> &surface;
+  std::vector<double> reach;
+  double skin;
+  double largest_motion_factor = 1.;
+  IsAllowedPair is_allowed;
+  std::vector<std::vector<unsigned int>> facets_of_body;
+
+  Positions positions_at_rebuild;
+  std::vector<FacetNeighbours> neighbours_;
+  unsigned int n_rebuilds_ = 0;
 };
 } // namespace signorini::contact

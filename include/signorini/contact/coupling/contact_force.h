@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include "signorini/contact/potential/contact_potential.h"
+#include "signorini/discretization/surface_map.h"
+#include "signorini/physics/force_term.h"
+
+namespace signorini
+{
+/// A contact potential as a force on the degrees of freedom.
+template <int dim>
+class ContactForce : public ForceTerm
+{
+public:
+  /// `is_external`: contact with obstacles, which changes the momentum of the bodies. `map` must outlive this object.
+  ContactForce(const std::string &name, bool is_external, const SurfaceMap<dim> &map,
+               typename contact::ContactPotential<dim>::Obstacles obstacles,
+               const contact::PotentialSettings &settings, const MPI_Comm &communicator);
+
+  double renew(const State &state) override;
+  void update(const State &state) override;
+  double energy() const override;
+  void add_force(Vector &force) const override;
+  void add_couplings(const dealii::AffineConstraints<double> &constraints,
+                     dealii::TrilinosWrappers::SparsityPattern &pattern) const override;
+  void add_tangent(TangentSystem &system) const override;
+  unsigned int n_searches() const override { return potential.n_searches(); }
+
+  /// Adds the damping forces at the given velocities; returns the power dissipated by all ranks [W].
+  double add_damping_force(const Vector &velocity, Vector &force) const;
+
+  /// Adds the bounds of ContactPotential::add_row_sum_bounds() to every degree of freedom.
+  void add_row_sum_bounds(Vector &stiffness, Vector &damping) const;
+
+  /// Of all ranks together.
+  contact::ContactMeasures<dim> measure() const;
+
+  /// Force by node of the whole surface, without damping, the same on all ranks [N] (collective).
+  std::vector<SpatialVector<dim>> nodal_forces() const;
+
+  /// Area by node, ∫N dA over the sampled parts of the faces that face another surface, the same on all ranks [m²; m in
+  /// 2-D] (collective).
+  std::vector<double> nodal_areas() const;
+
+  /// This rank's points.
+  std::vector<contact::ContactSample<dim>> samples() const { return potential.samples(); }
+
+private:
+  std::vector<SpatialVector<dim>> positions(const State &state) const;
+
+  const SurfaceMap<dim> *map;
+  contact::ContactPotential<dim> potential;
+  MPI_Comm communicator;
+};
+} // namespace signorini

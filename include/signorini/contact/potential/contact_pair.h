@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include "signorini/contact/geometry/depth.h"
+
+#include <array>
+#include <limits>
+
+namespace signorini::contact
+{
+/// A point on an owned facet (the contactor) and what it may touch: another body or an obstacle (the target).
+template <int dim>
+struct ContactPair
+{
+  unsigned int facet = 0;                              ///< the contactor
+  unsigned int target = 0;                             ///< index of the body or of the obstacle
+  unsigned int neighbours = 0;                         ///< bodies only: index into the neighbour list
+  LocalPoint<dim> xi;                                  ///< the point on the contactor
+  std::array<double, Facet<dim>::max_n_nodes> shape{}; ///< the contactor's shape functions there
+  double area = 0.;               ///< A_q: undeformed area the point counts with [m²; m in 2-D]
+  double stiffness = 0.;          ///< k_A [Pa/m]
+  double damping = 0.;            ///< 2ξ√(k_A m_A) [Pa s/m]
+  double distance_when_made = 0.; ///< of the point from the target's surface [m]
+};
+
+/// Where a pair's point stands with respect to its target.
+template <int dim>
+struct PairFoot
+{
+  double depth = -std::numeric_limits<double>::infinity(); ///< −∞ where the target is out of reach
+  SpatialVector<dim> gap;                                  ///< g = x − y, with |g| = |depth|
+  SpatialVector<dim> normal;                               ///< outward unit normal of the target
+  SpatialVector<dim> position;                             ///< x
+  unsigned int facet = 0;                                  ///< bodies only: the target's closest facet, …
+  ClosestPoint<dim> closest;                               ///< … the foot on it …
+  std::array<double, Facet<dim>::max_n_nodes> shape{};     ///< … and its shape functions there
+
+  bool is_active() const { return depth > 0.; }
+};
+
+/// The nodes a pair acts on, with weights B so that g = Σ_a B_a x_a (+ a point fixed in space, for
+/// obstacles).
+template <int dim>
+struct PairStencil
+{
+  static constexpr unsigned int max_n_nodes = 2 * Facet<dim>::max_n_nodes;
+
+  unsigned int n_nodes = 0;
+  std::array<unsigned int, max_n_nodes> node;
+  std::array<double, max_n_nodes> weight;
+
+  void add(const Facet<dim> &facet, const std::array<double, Facet<dim>::max_n_nodes> &shape, double sign)
+  {
+    for (unsigned int a = 0; a < facet.n_nodes(); ++a, ++n_nodes)
+    {
+      node[n_nodes] = facet.nodes[a];
+      weight[n_nodes] = sign * shape[a];
+    }
+  }
+};
+} // namespace signorini::contact

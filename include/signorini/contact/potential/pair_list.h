@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include "signorini/contact/geometry/segments.h"
+#include "signorini/contact/potential/contact_pair.h"
+#include "signorini/contact/potential/potential_settings.h"
+#include "signorini/contact/search/neighbour_list.h"
+#include "signorini/scene/obstacle.h"
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+namespace signorini::contact
+{
+/// All pairs that may be in contact until some node has moved by half the skin.
+///
+/// A point sees another body's surface as deep as its own facet's layer thickness, and any depth of an
+/// obstacle. Pairs too far from their target to touch it before the next renewal are left out.
+template <int dim>
+class PairList
+{
+public:
+  using Positions = std::vector<SpatialVector<dim>>;
+  using Obstacles = std::vector<std::shared_ptr<const Obstacle<dim>>>;
+  using Pairs = std::vector<ContactPair<dim>>;
+
+  /// `contact_surface` must outlive this object. Throws std::invalid_argument for settings or facets without
+  /// sense.
+  PairList(const ContactSurface<dim> &contact_surface, Obstacles rigid_obstacles,
+           PotentialSettings potential_settings);
+
+  bool is_stale(const Positions &positions) const { return neighbour_list.is_stale(positions); }
+
+  unsigned int n_searches() const { return neighbour_list.n_rebuilds(); }
+  const std::vector<FacetNeighbours> &neighbours() const { return neighbour_list.neighbours(); }
+
+  /// Makes all pairs anew; the neighbour list only if it is stale.
+  void renew(const Positions &positions);
+
+  const Pairs &body_pairs() const { return body_pairs_; }
+
+  /// In the order of the obstacles.
+  const Pairs &obstacle_pairs() const { return obstacle_pairs_; }
+
+  const Obstacles &obstacles() const { return obstacles_; }
+  const PotentialSettings &settings() const { return settings_; }
+  double skin() const { return skin_; } ///< [m]
+
+  /// A bound of how much the distance between any point and any surface changed since the last renewal [m].
+  double bound_motion(const Positions &positions) const;
+
+  /// The foot of `x`, a point of the pair's contactor, on its target body, no farther than `cutoff`.
+  SurfaceFoot<dim> find_body_foot(const ContactPair<dim> &pair, const Positions &positions,
+                                  const SpatialVector<dim> &x, double cutoff) const;
+
+  /// How deep a point of that facet sees another body [m].
+  double reach(unsigned int facet) const { return reach_[facet]; }
+
+private:
+  struct FacetPoint
+  {
+    FacetQuadraturePoint<dim> point;
+    std::array<double, Facet<dim>::max_n_nodes> shape;
+  };
+  using FacetPoints = std::vector<FacetPoint>;
+
+  void check_input() const;
+  double compute_skin() const;
+  std::vector<double> compute_reach() const;
+  NeighbourList<dim> make_neighbour_list() const;
+  bool is_excluded_obstacle(unsigned int body, unsigned int obstacle) const;
+
+  void add_body_pairs(unsigned int neighbours, const Positions &positions);
+  void add_segment_pairs(unsigned int neighbours, unsigned int candidate, const Positions &positions);
+
+  /// `facing`: the target facet that a segment's point was made for.
+  void add_body_pair(unsigned int neighbours, const FacetPoint &point, std::optional<unsigned int> facing,
+                     const Positions &positions);
+  void add_obstacle_pairs(unsigned int obstacle, const Positions &positions);
+
+  /// Area, stiffness and damping; `target` is null for an obstacle.
+  void set_coefficients(ContactPair<dim> &pair, const FacetPoint &point, const Facet<dim> *target) const;
+
+  const ContactSurface<dim> &surface;
+  Obstacles obstacles_;
+  PotentialSettings settings_;
+  double skin_;
+  std::vector<double> reach_;
+  double largest_motion_factor = 1.;
+  std::array<FacetPoints, 2> gauss_points; ///< of facets of degree 1 and 2
+  NeighbourList<dim> neighbour_list;
+
+  Pairs body_pairs_;
+  Pairs obstacle_pairs_;
+  Positions positions_at_renewal;
+};
+
+/// x(ξ) = Σ_a shape_a x_a on a facet.
+template <int dim>
+SpatialVector<dim> interpolate(const Facet<dim> &facet,
+                               const std::array<double, Facet<dim>::max_n_nodes> &shape,
+                               const std::vector<SpatialVector<dim>> &nodal_values)
+{
+  SpatialVector<dim> value = SpatialVector<dim>::Zero();
+  for (unsigned int a = 0; a < facet.n_nodes(); ++a)
+    value += shape[a] * nodal_values[facet.nodes[a]];
+  return value;
+}
+} // namespace signorini::contact

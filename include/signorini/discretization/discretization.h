@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include "signorini/base/types.h"
+#include "signorini/discretization/cell_table.h"
+#include "signorini/parameters/parameters.h"
+
+#include <deal.II/distributed/tria.h>
+#include <deal.II/dofs/dof_handler.h>
+#include <deal.II/fe/fe_system.h>
+#include <deal.II/fe/mapping_q_cache.h>
+#include <deal.II/lac/affine_constraints.h>
+
+#include <array>
+#include <memory>
+
+namespace signorini
+{
+/// A hanging degree of freedom and those it hangs between, as indices into the local part of a Vector.
+struct HangingDof
+{
+  unsigned int dof = 0;
+  std::vector<std::pair<unsigned int, double>> masters;
+};
+
+/// A node whose degrees of freedom this rank owns.
+template <int dim>
+struct OwnedNode
+{
+  std::array<unsigned int, dim> dofs; ///< local indices
+  dealii::Point<dim> position;        ///< undeformed [m]
+  unsigned int body = 0;
+};
+
+/// Mesh, elements, degrees of freedom and hanging nodes of all bodies of a scene.
+template <int dim>
+class Discretization
+{
+public:
+  Discretization(const Parameters &parameters, const MPI_Comm &communicator);
+
+  /// A zero vector with ghost entries for all that this rank's cells need.
+  Vector make_vector() const;
+
+  /// Sets hanging degrees of freedom to their interpolated values and updates ghosts.
+  void distribute(Vector &values) const;
+
+  /// Turns forces added cell by cell on local and ghost entries into forces on their owners' free degrees of freedom:
+  /// the transpose of distribute().
+  void collect(Vector &forces) const;
+
+  std::unique_ptr<dealii::parallel::distributed::Triangulation<dim>> mesh;
+  dealii::FESystem<dim> element;
+  dealii::MappingQCache<dim> mapping; ///< hanging nodes between their masters, also on curved boundaries
+  dealii::DoFHandler<dim> dof_handler;
+
+  dealii::IndexSet owned_dofs;
+  dealii::IndexSet relevant_dofs; ///< includes the masters of all hanging nodes
+  dealii::AffineConstraints<double> hanging_constraints;
+  std::vector<HangingDof> hanging_dofs; ///< of all relevant ones
+  CellTable<dim> cells;
+  std::vector<OwnedNode<dim>> owned_nodes;
+
+  /// Owned degrees of freedom without a cell: deal.II 9.4 numbers a few of them on the borders between ranks of meshes
+  /// with hanging nodes. They mean nothing and must not reach a linear solver.
+  std::vector<dealii::types::global_dof_index> unused_dofs;
+
+  /// Degrees of freedom of all ranks that have a cell.
+  dealii::types::global_dof_index n_dofs() const;
+
+  const MPI_Comm &communicator() const { return mpi_communicator; }
+
+private:
+  void number_dofs();
+  void close_mapping();
+  void fill_cell_table();
+  void collect_owned_nodes();
+
+  MPI_Comm mpi_communicator;
+  std::shared_ptr<const dealii::Utilities::MPI::Partitioner> partitioner;
+};
+} // namespace signorini

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include "signorini/discretization/surface_map.h"
+#include "signorini/physics/state.h"
+#include "signorini/solvers/scene_forces.h"
+
+#include <deal.II/dofs/dof_handler.h>
+#include <deal.II/fe/fe_q.h>
+
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace signorini
+{
+/// Writes solution_NNNN.vtu (and .pvtu) and keeps solution.pvd, the list of all of them, up to date.
+///
+/// Point data: displacement, velocity (explicit runs), contact_pressure and gap (with contact; the pressure is the nodal
+/// contact force over the area of the node, so that it integrates to the force; the gap is at most one layer thickness
+/// and negative where bodies overlap).
+/// Cell data: body, von_mises_stress and the components of the true stress.
+template <int dim>
+class Fields
+{
+public:
+  /// `map` is null in scenes without contact.
+  Fields(const Discretization<dim> &discretization, const SurfaceMap<dim> *map, std::string directory);
+
+  /// Throws FileError (collective).
+  void write(const State &state, const SceneForces<dim> &forces);
+
+private:
+  struct ContactFields
+  {
+    dealii::FE_Q<dim> element;
+    dealii::DoFHandler<dim> dof_handler;
+    std::vector<std::pair<unsigned int, dealii::types::global_dof_index>> owned; ///< surface node, scalar dof
+    dealii::IndexSet relevant;
+  };
+
+  void number_contact_fields();
+  std::pair<Vector, Vector> project_contact(const SceneForces<dim> &forces) const;
+
+  const Discretization<dim> *discretization;
+  const SurfaceMap<dim> *map;
+  std::string directory;
+  std::unique_ptr<ContactFields> contact;
+  std::vector<std::pair<double, std::string>> records;
+};
+} // namespace signorini

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include "signorini/contact/potential/contact_potential.h"
+#include "signorini/parameters/parameters.h"
+#include "signorini/physics/ledger.h"
+
+#include <Eigen/Core>
+
+#include <array>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace signorini
+{
+/// One body at one moment.
+struct BodyRecord
+{
+  std::array<double, 3> velocity{};      ///< of its centre of mass [m/s]
+  std::array<double, 3> contact_force{}; ///< on it [N]
+};
+
+struct HistoryRow
+{
+  double time = 0.;
+  std::vector<BodyRecord> bodies;
+};
+
+/// A part of the program that the scene did not need.
+struct LeftOutPart
+{
+  std::string name, reason;
+};
+
+/// One comparison with an exact solution.
+struct ErrorRow
+{
+  std::string quantity;
+  double computed = 0.;
+  double exact = 0.;
+  double relative_error = 0.; ///< signed, (computed − exact)/|exact| unless the quantity says otherwise
+};
+
+/// All that a finished run is reported from, the same on every rank.
+template <int dim>
+struct Results
+{
+  const Parameters *parameters = nullptr;
+  std::string status = "running";
+  std::vector<std::string> parts_built;
+  std::vector<LeftOutPart> parts_left_out;
+  unsigned int n_dofs = 0, n_cells = 0, n_steps = 0, n_iterations = 0;
+  std::map<std::string, double> run_time; ///< by section [s]
+  double total_run_time = 0.;
+  double memory_peak_mb = 0.;
+
+  bool has_contact = false;
+  contact::ContactMeasures<dim> contact; ///< of all contact terms at the end
+  double max_penetration_over_thickness = 0.; ///< of the whole run
+  unsigned int max_n_pairs = 0;
+  std::vector<contact::ContactSample<dim>> samples;
+  std::vector<unsigned int> sample_bodies;
+  std::vector<double> sample_thicknesses;
+  std::vector<double> nodal_pressures; ///< nodal force over nodal area, of the nodes with an area [Pa]
+
+  bool has_ledger = false; ///< explicit runs
+  EnergyLedger energy;
+  double max_ledger_residual = 0.;
+  MomentumLedger momentum;
+  double max_linear_drift = 0., max_angular_drift = 0.;
+
+  std::vector<double> body_masses;
+  std::vector<double> body_volumes;
+  Eigen::Matrix3d smallest_stress = Eigen::Matrix3d::Zero(); ///< componentwise over all cells [Pa]
+  Eigen::Matrix3d largest_stress = Eigen::Matrix3d::Zero();
+  std::vector<HistoryRow> history;
+  double largest_support_displacement = 0.;
+  std::array<double, 3> total_load{}; ///< resultant of the loads at the end [N]
+  std::vector<std::array<double, 3>> body_end_displacement; ///< largest displacement by component [m]
+  std::vector<ErrorRow> errors;
+};
+} // namespace signorini

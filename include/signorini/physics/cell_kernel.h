@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include "signorini/physics/material.h"
+
+#include <vector>
+
+namespace signorini
+{
+/// Geometry of one cell, as pointers into a CellTable.
+struct CellGeometry
+{
+  unsigned int n_nodes = 0;
+  unsigned int n_points = 0;
+  const double *gradients = nullptr; ///< [point][node][direction]
+  const double *weights = nullptr;   ///< [point]
+};
+
+/// Energy, force and tangent of one cell of a given law. Keeps its scratch memory between cells.
+///
+/// Degree 1: W = Σ_q w_q ψ_shape(H_q) + V U(v̄), v̄ = Σ_q w_q v(H_q) / V, V = Σ_q w_q (mean dilatation).
+/// Degree 2: W = Σ_q w_q [ψ_shape(H_q) + U(v(H_q))].
+template <int dim, typename Law>
+class CellKernel
+{
+public:
+  CellKernel(const Law &material_law, unsigned int degree) : law(material_law), uses_mean_volume(degree == 1) {}
+
+  /// `u`: [node][component].
+  double energy(const CellGeometry &cell, const double *u);
+
+  /// Adds −∂W/∂u to `force` [node][component].
+  void add_force(const CellGeometry &cell, const double *u, double *force);
+
+  /// Overwrites `tangent`, row-major with rows [node][component], with ∂²W/∂u∂u.
+  void compute_tangent(const CellGeometry &cell, const double *u, double *tangent);
+
+  /// Volume mean of the true stress [Pa].
+  Eigen::Matrix3d mean_stress(const CellGeometry &cell, const double *u);
+
+private:
+  using Gradient = Eigen::Matrix<double, dim, dim>;
+
+  Gradient displacement_gradient(const CellGeometry &cell, unsigned int point, const double *u) const;
+
+  /// Fills gradients and volume ratios of all points, and the pressure and modulus that act at each.
+  void evaluate_volume(const CellGeometry &cell, const double *u, Order order);
+
+  Law law;
+  bool uses_mean_volume;
+  std::vector<Gradient> gradients;
+  std::vector<VolumeRatio<dim>> ratios;
+  std::vector<VolumeResponse> volumes; ///< one a point
+  double cell_volume = 0.;
+  std::vector<double> mean_ratio_gradient; ///< Σ_q w_q ∂v_q/∂u [node][component]
+};
+} // namespace signorini

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include "signorini/discretization/discretization.h"
+#include "signorini/physics/force_term.h"
+#include "signorini/scene/scene.h"
+
+namespace signorini
+{
+/// Weight and tractions: forces that do not depend on the displacement, only on time.
+template <int dim>
+class DeadLoad : public ForceTerm
+{
+public:
+  DeadLoad(const Scene<dim> &scene, const Discretization<dim> &discretization);
+
+  void update(const State &state) override;
+  /// −f·u: the work that the present forces could have done.
+  double energy() const override;
+  void add_force(Vector &force) const override;
+
+private:
+  /// A quadrature point of a loaded face.
+  struct LoadedPoint
+  {
+    unsigned int load;
+    dealii::Point<dim> position;
+    std::vector<std::pair<unsigned int, double>> weights; ///< local dof of component 0 … and ∫N dA share
+    std::vector<unsigned int> components;
+  };
+
+  void collect_points();
+
+  const Scene<dim> *scene;
+  const Discretization<dim> *discretization;
+  std::vector<LoadedPoint> points;
+  Vector weight; ///< gravity's share, on free dofs
+  Vector forces; ///< at the time of the last update
+  double work = 0.;
+};
+} // namespace signorini

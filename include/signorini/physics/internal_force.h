@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include "signorini/base/spatial_vector.h"
+#include "signorini/discretization/discretization.h"
+#include "signorini/physics/cell_kernel.h"
+#include "signorini/physics/force_term.h"
+
+#include <variant>
+#include <vector>
+
+namespace signorini
+{
+/// The elastic forces of all bodies.
+template <int dim>
+class InternalForce : public ForceTerm
+{
+public:
+  InternalForce(const std::vector<MaterialParameters> &materials, const Discretization<dim> &discretization);
+
+  void update(const State &state) override;
+  double energy() const override;
+  void add_force(Vector &force) const override;
+  void add_tangent(TangentSystem &system) const override;
+
+  /// Calls `visit(cell, tangent)` with the row-major tangent of every own cell.
+  void for_each_tangent(const std::function<void(unsigned int, const std::vector<double> &)> &visit) const;
+
+  /// Adds to every local and ghost entry the sum of the magnitudes that its force is the small difference of: what
+  /// round-off is relative to [N].
+  void add_magnitudes(Vector &magnitudes) const;
+
+  /// Mean true stress of every own cell [Pa].
+  std::vector<Eigen::Matrix3d> stresses() const;
+
+private:
+  using Kernel = std::variant<CellKernel<dim, LinearElastic<dim>>, CellKernel<dim, NeoHookean<dim>>>;
+
+  /// Calls `action(kernel, cell, geometry, u)` for every own cell, u its nodal displacements.
+  template <typename Action>
+  void for_each_cell(const Action &action) const;
+
+  const Discretization<dim> *discretization;
+  const Vector *displacement = nullptr;
+  std::vector<double> moduli; ///< of compression without widening, κ + 4μ/3, one a body [Pa]
+  mutable std::vector<Kernel> kernels; ///< one a body; mutable for their scratch memory
+};
+} // namespace signorini

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include <array>
+
+namespace signorini
+{
+/// Where the energy of a run is, and what crossed its border [J; J/m in 2-D]. It closes when
+/// kinetic + elastic + contact + dissipated − (work of loads and supports) − (jumps) stays at its first value.
+struct EnergyLedger
+{
+  double kinetic = 0.;
+  double elastic = 0.;
+  double contact = 0.;
+  double dissipated = 0.;      ///< by contact damping, since the start
+  double work_of_loads = 0.;   ///< since the start
+  double work_of_supports = 0.;///< since the start
+  double contact_renewals = 0.;///< stored energy that came with renewed contact stiffnesses or points, since the start
+  double initial = 0.;         ///< kinetic + elastic + contact at the start
+  double largest = 0.;         ///< largest of the sums of magnitudes seen: the scale of the residual
+
+  /// What is missing or too much.
+  double imbalance() const;
+  /// imbalance() over `largest`.
+  double residual() const;
+  /// Takes the present sums into account for `largest`.
+  void note_scale();
+};
+
+/// Linear and angular momentum (about the origin) and what changed them from outside. In 2-D only the first two and
+/// the last component are used.
+struct MomentumLedger
+{
+  std::array<double, 3> linear{};           ///< [kg m/s]
+  std::array<double, 3> angular{};          ///< [kg m²/s]
+  std::array<double, 3> linear_impulse{};   ///< of loads, supports and obstacles, since the start [N s]
+  std::array<double, 3> angular_impulse{};  ///< their moment about the origin [N m s]
+  std::array<double, 3> initial_linear{};
+  std::array<double, 3> initial_angular{};
+  double linear_scale = 0.;  ///< largest Σ m|v| seen
+  double angular_scale = 0.; ///< largest Σ m|x||v| seen
+
+  /// |momentum − initial − impulse| over the scale.
+  double linear_drift() const;
+  double angular_drift() const;
+};
+} // namespace signorini

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include "signorini/discretization/supports.h"
+
+#include <vector>
+
+namespace signorini
+{
+/// Whether the supports of each body leave no rigid motion free: the Gram matrix of its rigid motions at the supported
+/// degrees of freedom has full rank.
+template <int dim>
+std::vector<bool> find_held_bodies(const Scene<dim> &scene, const SupportedDofs<dim> &supports);
+
+/// Throws InputError for a body that neither supports nor possible contact hold.
+template <int dim>
+void check_held(const Parameters &parameters, const Scene<dim> &scene, const std::vector<bool> &is_held);
+} // namespace signorini

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include "signorini/simulation/command_line.h"
+
+#include <mpi.h>
+
+namespace signorini
+{
+/// Reads the parameter file of a command line, checks it, and runs it unless only validation is asked for. Collective.
+/// Throws InputError, NumericalError and FileError, the same on all ranks.
+void run(const CommandLine &command_line, const MPI_Comm &communicator);
+} // namespace signorini

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include "signorini/base/run_time.h"
+#include "signorini/discretization/supports.h"
+#include "signorini/discretization/surface_map.h"
+#include "signorini/output/fields.h"
+#include "signorini/output/results.h"
+#include "signorini/output/statistics.h"
+#include "signorini/simulation/progress.h"
+#include "signorini/solvers/explicit_solver.h"
+#include "signorini/solvers/quasi_static_solver.h"
+
+#include <memory>
+#include <string>
+
+namespace signorini
+{
+/// Builds everything from the parameters and owns the loop. The only place that sees everything, and the only one that
+/// asks what a scene has: what it has not is not built.
+template <int dim>
+class Simulation
+{
+public:
+  /// `input`: name of the parameter file, for reports. Throws InputError for scenes that cannot be run.
+  Simulation(const Parameters &parameters, const std::string &input, const MPI_Comm &communicator, bool is_quiet);
+
+  /// What would be done, at what size and cost.
+  void print_plan();
+
+  /// Runs, writing into Output/Directory. Throws NumericalError, after the last good output is written, and
+  /// FileError.
+  void run();
+
+private:
+  void build_contact();
+  void check_initial_overlap();
+  void list_parts();
+
+  void run_quasi_static(const QuasiStaticParameters &solver_parameters);
+  void run_explicit(const ExplicitParameters &solver_parameters);
+  void record_explicit(const ExplicitSolver<dim> &solver, double time_step, double end_time);
+  void record_quasi_static(double end_time);
+  void check_penetration();
+  void update_contact_measures();
+  std::vector<BodyRecord> record_bodies() const;
+  void set_initial_motion();
+  void measure_bodies();
+  void write_fields();
+  void append_contact(Statistics::Row &row) const;
+  void finish(const std::string &status);
+  void gather_samples();
+  void gather_nodal_pressures();
+  void gather_extremes();
+  void print_results();
+  double memory_mb() const;
+
+  Parameters parameters;
+  std::string input;
+  MPI_Comm communicator;
+  Progress progress;
+  RunTime run_time;
+
+  Scene<dim> scene;
+  std::unique_ptr<Discretization<dim>> discretization;
+  std::unique_ptr<SupportedDofs<dim>> supports;
+  std::unique_ptr<SurfaceMap<dim>> surface_map; ///< null without contact
+  SceneForces<dim> forces;
+  State state;
+  std::vector<bool> is_body_held;
+
+  std::unique_ptr<Fields<dim>> fields;
+  std::unique_ptr<Statistics> statistics; ///< on rank 0
+  Results<dim> results;
+};
+} // namespace signorini

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include "signorini/base/run_time.h"
+#include "signorini/discretization/supports.h"
+#include "signorini/physics/internal_force.h"
+#include "signorini/physics/ledger.h"
+#include "signorini/physics/momentum.h"
+#include "signorini/solvers/critical_step.h"
+#include "signorini/solvers/scene_forces.h"
+
+namespace signorini
+{
+/// Velocity Verlet with a lumped mass:
+///
+///   v_(n+1/2) = v_n + Δt/2 a_n,   u_(n+1) = u_n + Δt v_(n+1/2),   a_(n+1) = M⁻¹ f(u_(n+1), v_(n+1/2)),
+///   v_(n+1) = v_(n+1/2) + Δt/2 a_(n+1).
+///
+/// Every force is booked: works and impulses by the trapezoidal rule, which is exact for momenta in this scheme.
+template <int dim>
+class ExplicitSolver
+{
+public:
+  /// The arguments must outlive this object.
+  ExplicitSolver(const Discretization<dim> &discretization, const SupportedDofs<dim> &supports,
+                 const std::vector<MaterialParameters> &materials, SceneForces<dim> &forces,
+                 const ExplicitParameters &parameters, RunTime &run_time);
+
+  /// Computes the first forces and opens the ledgers.
+  void start(State &state);
+
+  /// Largest step that is stable from the present state on, with its factors [s].
+  double stable_step() const;
+
+  /// Frequencies of the bodies anew, from their present deformation.
+  void update_bulk_bound()
+  {
+    bulk_frequency_squared = compute_bulk_frequency_squared(*forces->elasticity, *materials, *discretization);
+  }
+
+  void step(double time_step, State &state);
+
+  /// Brings the energies and momenta of the ledgers up to the present state.
+  void take_stock(const State &state);
+
+  const EnergyLedger &energy() const { return energy_ledger; }
+  const MomentumLedger &momentum() const { return momentum_ledger; }
+
+private:
+  void compute_forces(const State &state, const Vector &velocity);
+  void compute_contact_forces(const State &state, const Vector &velocity);
+  void compute_load_forces(const State &state);
+  void book_step(const State &state, double time_step);
+  void book_supports(const State &state, double time_step);
+
+  const Discretization<dim> *discretization;
+  const SupportedDofs<dim> *supports;
+  const std::vector<MaterialParameters> *materials;
+  SceneForces<dim> *forces;
+  ExplicitParameters parameters;
+  RunTime *run_time;
+
+  Vector mass;
+  Vector force, load_force, damping_force, one_damping_force, external_force;
+  Vector old_force, old_load_force, old_damping_force;
+  Vector old_displacement, old_velocity, increment;
+  std::vector<double> half_velocity_of_supports;
+  std::vector<unsigned int> dofs_of_supported_nodes; ///< local indices, free components included
+  VectorAndMoment external, old_external;
+  bool has_external_forces = false;
+  double bulk_frequency_squared = 0.;
+  mutable ContactBound contact_bound;
+  mutable unsigned int n_searches_of_bound = 0;
+  EnergyLedger energy_ledger;
+  MomentumLedger momentum_ledger;
+};
+} // namespace signorini

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include <deal.II/lac/trilinos_sparse_matrix.h>
+#include <deal.II/lac/trilinos_vector.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace signorini
+{
+/// Solves A x = b for symmetric A.
+class LinearSolver
+{
+public:
+  virtual ~LinearSolver() = default;
+
+  /// Returns the number of iterations, 1 for direct solvers. Throws NumericalError if it fails (on all ranks).
+  virtual unsigned int solve(const dealii::TrilinosWrappers::SparseMatrix &matrix,
+                             const dealii::TrilinosWrappers::MPI::Vector &right_hand_side,
+                             dealii::TrilinosWrappers::MPI::Vector &solution) = 0;
+  virtual std::string name() const = 0;
+};
+
+/// Sparse symmetric factorisation by MUMPS, through PETSc: Trilinos' interface takes matrices of one rank only.
+std::unique_ptr<LinearSolver> make_direct_solver();
+
+/// Conjugate gradients with hypre's BoomerAMG, whose iteration counts do not grow with the contact stiffness.
+/// `n_components`: of the displacement, numbered together at each node.
+std::unique_ptr<LinearSolver> make_amg_solver(unsigned int n_components, double relative_tolerance);
+} // namespace signorini

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include "signorini/contact/coupling/contact_force.h"
+#include "signorini/physics/internal_force.h"
+
+#include <memory>
+#include <vector>
+
+namespace signorini
+{
+/// The force terms of a scene, in lists that are empty where the scene has none of the kind.
+template <int dim>
+struct SceneForces
+{
+  std::shared_ptr<InternalForce<dim>> elasticity;
+  std::vector<std::shared_ptr<ForceTerm>> loads;
+  std::vector<std::shared_ptr<ContactForce<dim>>> contacts;
+  std::vector<std::shared_ptr<ContactForce<dim>>> damped_contacts; ///< those of `contacts` with damping
+};
+} // namespace signorini

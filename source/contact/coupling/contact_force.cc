@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "signorini/contact/coupling/contact_force.h"
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <set>
+
+namespace signorini
+{
+namespace
+{
+template <int dim>
+std::vector<dealii::types::global_dof_index> collect_dofs(const SurfaceMap<dim> &map,
+                                                          const std::vector<unsigned int> &nodes)
+{
+  std::vector<dealii::types::global_dof_index> dofs;
+  for (const unsigned int node : nodes)
+    dofs.insert(dofs.end(), map.node_dofs(node).begin(), map.node_dofs(node).end());
+  return dofs;
+}
+} // namespace
+
+template <int dim>
+ContactForce<dim>::ContactForce(const std::string &term_name, bool is_an_external_term,
+                                const SurfaceMap<dim> &surface_map,
+                                typename contact::ContactPotential<dim>::Obstacles obstacles,
+                                const contact::PotentialSettings &settings, const MPI_Comm &mpi_communicator)
+  : ForceTerm(term_name, Kind::contact, is_an_external_term)
+  , map(&surface_map)
+  , potential(surface_map.surface(), std::move(obstacles), settings)
+  , communicator(mpi_communicator)
+{}
+
+template <int dim>
+std::vector<SpatialVector<dim>> ContactForce<dim>::positions(const State &state) const
+{
+  std::vector<SpatialVector<dim>> x = map->gather(state.displacement);
+  for (unsigned int node = 0; node < x.size(); ++node)
+    x[node] += map->surface().reference_positions[node];
+  return x;
+}
+
+template <int dim>
+double ContactForce<dim>::renew(const State &state)
+{
+  return dealii::Utilities::MPI::sum(potential.update(positions(state)), communicator);
+}
+
+template <int dim>
+void ContactForce<dim>::update(const State &state)
+{
+  const std::vector<SpatialVector<dim>> x = positions(state);
+  if (potential.is_stale(x))
+  {
+      potential.update(x);
+  }
+  potential.evaluate(x);
+}
+
+template <int dim>
+double ContactForce<dim>::energy() const
+{
+  return dealii::Utilities::MPI::sum(potential.energy(), communicator);
+}
+
+template <int dim>
+void ContactForce<dim>::add_force(Vector &force) const
+{
+  std::vector<SpatialVector<dim>> nodal(map->surface().n_nodes(), SpatialVector<dim>::Zero());
+  potential.add_forces(nodal);
+  map->add_to_owners(nodal, force);
+}
+
+template <int dim>
+double ContactForce<dim>::add_damping_force(const Vector &velocity, Vector &force) const
+{
+  std::vector<SpatialVector<dim>> nodal(map->surface().n_nodes(), SpatialVector<dim>::Zero());
+  const double power = potential.add_damping_forces(map->gather(velocity), nodal);
+  map->add_to_owners(nodal, force);
+  return dealii::Utilities::MPI::sum(power, communicator);
+}
+
+template <int dim>
+void ContactForce<dim>::add_couplings(const dealii::AffineConstraints<double> &constraints,
+                                      dealii::TrilinosWrappers::SparsityPattern &pattern) const
+{
+  potential.for_each_coupling(
+    [&](const std::vector<unsigned int> &nodes)
+    { constraints.add_entries_local_to_global(collect_dofs(*map, nodes), pattern, false); });
+}
+
+template <int dim>
+void ContactForce<dim>::add_tangent(TangentSystem &system) const
+{
+  dealii::FullMatrix<double> matrix;
+  dealii::Vector<double> zero;
+  potential.for_each_tangent(
+    [&](const std::vector<unsigned int> &nodes, const Eigen::MatrixXd &block)
+    {
+      const unsigned int n = block.rows();
+      matrix.reinit(n, n);
+      zero.reinit(n);
+      for (unsigned int i = 0; i < n; ++i)
+        for (unsigned int j = 0; j < n; ++j)
+          matrix(i, j) = block(i, j);
+      system.constraints->distribute_local_to_global(matrix, zero, collect_dofs(*map, nodes), system.matrix,
+                                                     system.right_hand_side);
+    });
+}
+
+template <int dim>
+std::vector<SpatialVector<dim>> ContactForce<dim>::nodal_forces() const
+{
+  std::vector<SpatialVector<dim>> forces(map->surface().n_nodes(), SpatialVector<dim>::Zero());
+  potential.add_forces(forces);
+  MPI_Allreduce(MPI_IN_PLACE, forces.data(), static_cast<int>(dim * forces.size()), MPI_DOUBLE, MPI_SUM, communicator);
+  return forces;
+}
+
+template <int dim>
+std::vector<double> ContactForce<dim>::nodal_areas() const
+{
+  // A point counts once however many surfaces it is near.
+  std::set<std::pair<unsigned int, std::array<double, dim - 1>>> known;
+  std::vector<double> areas(map->surface().n_nodes(), 0.);
+  for (const contact::ContactSample<dim> &sample : potential.samples())
+  {
+    std::array<double, dim - 1> xi;
+    std::copy(sample.xi.begin(), sample.xi.end(), xi.begin());
+    if (!known.emplace(sample.facet, xi).second)
+      continue;
+    const Facet<dim> &facet = map->surface().facets[sample.facet];
+    const auto shape = contact::evaluate_facet_shape<dim>(facet.degree, sample.xi);
+    for (unsigned int i = 0; i < facet.n_nodes(); ++i)
+      areas[facet.nodes[i]] += shape.value[i] * sample.full_area;
+  }
+  MPI_Allreduce(MPI_IN_PLACE, areas.data(), static_cast<int>(areas.size()), MPI_DOUBLE, MPI_SUM, communicator);
+  return areas;
+}
+
+template <int dim>
+void ContactForce<dim>::add_row_sum_bounds(Vector &stiffness, Vector &damping) const
+{
+  const unsigned int n_nodes = map->surface().n_nodes();
+  std::vector<double> nodal_stiffness(n_nodes, 0.), nodal_damping(n_nodes, 0.);
+  potential.add_row_sum_bounds(nodal_stiffness, nodal_damping);
+  const auto spread = [&](const std::vector<double> &nodal, Vector &values)
+  {
+    std::vector<SpatialVector<dim>> equal(n_nodes);
+    for (unsigned int node = 0; node < n_nodes; ++node)
+      equal[node] = SpatialVector<dim>::Constant(nodal[node]);
+    map->add_to_owners(equal, values);
+  };
+  spread(nodal_stiffness, stiffness);
+  spread(nodal_damping, damping);
+}
+
+template <int dim>
+contact::ContactMeasures<dim> ContactForce<dim>::measure() const
+{
+  using dealii::Utilities::MPI::max;
+  using dealii::Utilities::MPI::sum;
+  contact::ContactMeasures<dim> total = potential.measure();
+  const double deepest = max(total.max_penetration_over_thickness, communicator);
+  const unsigned int this_rank = dealii::Utilities::MPI::this_mpi_process(communicator);
+  const unsigned int deepest_rank =
+    max(total.max_penetration_over_thickness == deepest ? this_rank : 0u, communicator);
+  MPI_Bcast(&total.deepest_facet, 1, MPI_UNSIGNED, static_cast<int>(deepest_rank), communicator);
+  MPI_Bcast(total.deepest_position.data(), dim, MPI_DOUBLE, static_cast<int>(deepest_rank), communicator);
+  total.max_penetration_over_thickness = deepest;
+  total.max_penetration = max(total.max_penetration, communicator);
+  total.max_pressure = max(total.max_pressure, communicator);
+  total.max_stiffness = max(total.max_stiffness, communicator);
+  total.area = sum(total.area, communicator);
+  total.n_pairs = sum(total.n_pairs, communicator);
+  total.n_active = sum(total.n_active, communicator);
+  MPI_Allreduce(MPI_IN_PLACE, total.resultants.data(), static_cast<int>(dim * total.resultants.size()), MPI_DOUBLE,
+                MPI_SUM, communicator);
+  return total;
+}
+
+template class ContactForce<2>;
+template class ContactForce<3>;
+} // namespace signorini

@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "signorini/contact/geometry/depth.h"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace signorini::contact
+{
+namespace
+{
+constexpr double pi = 3.14159265358979323846;
+constexpr double tie_tolerance = 1e-9; ///< relative to the facet's size
+
+template <int dim>
+struct Box
+{
+  SpatialVector<dim> middle, half_width;
+
+  double squared_distance(const SpatialVector<dim> &x) const
+  {
+    return ((x - middle).cwiseAbs() - half_width).cwiseMax(0.).squaredNorm();
+  }
+};
+
+/// A box that surely holds the facet. A facet of degree 2 may bulge out of the box of its nodes, by no more
+/// than the Lebesgue constant 5/4 a direction allows.
+template <int dim>
+Box<dim> make_box(const FacetNodes<dim> &nodes)
+{
+  SpatialVector<dim> lower = nodes.position[0], upper = nodes.position[0];
+  for (unsigned int i = 1; i < nodes.n_nodes; ++i)
+  {
+    lower = lower.cwiseMin(nodes.position[i]);
+    upper = upper.cwiseMax(nodes.position[i]);
+  }
+  const double bulge = (nodes.degree == 1 ? 1. : dim == 2 ? 1.25 : 1.5625);
+  return {0.5 * (lower + upper), 0.5 * bulge * (upper - lower)};
+}
+
+/// −1 where ξ_α is held at 0, +1 at 1, 0 inside.
+template <int dim>
+std::array<int, dim - 1> find_sides(const LocalPoint<dim> &xi)
+{
+  std::array<int, dim - 1> sides;
+  for (int a = 0; a < dim - 1; ++a)
+    sides[a] = (xi[a] <= tie_tolerance ? -1 : xi[a] >= 1. - tie_tolerance ? 1 : 0);
+  return sides;
+}
+
+template <int dim>
+SpatialVector<dim> make_unit(const SpatialVector<dim> &v)
+{
+  const double norm = v.norm();
+  return norm > 0. ? SpatialVector<dim>(v / norm) : SpatialVector<dim>(SpatialVector<dim>::Zero());
+}
+
+/// The sectors of all facets that meet at a foot.
+template <int dim>
+struct Fan
+{
+  SpatialVector<dim> normal = SpatialVector<dim>::Zero(); ///< sum of unit normals times angles
+
+  /// Sum over the sectors of (last − first) unit edge direction, counter-clockwise. In a closed fan the last
+  /// edge of each sector is the first of the next, and this is zero. In 2-D: number of ends minus number of
+  /// beginnings.
+  SpatialVector<dim> open_rim = SpatialVector<dim>::Zero();
+
+  void add_sector(const FacetNodes<dim> &nodes, const LocalPoint<dim> &xi);
+  bool is_closed() const { return open_rim.squaredNorm() < 1e-6; }
+};
+
+template <>
+void Fan<2>::add_sector(const FacetNodes<2> &nodes, const LocalPoint<2> &xi)
+{
+  const int side = find_sides<2>(xi)[0];
+  normal += (side == 0 ? 2. * pi : pi) * make_unit<2>(evaluate_facet_frame(nodes, xi).area_normal);
+  open_rim[0] += side;
+}
+
+template <>
+void Fan<3>::add_sector(const FacetNodes<3> &nodes, const LocalPoint<3> &xi)
+{
+  const FacetFrame<3> frame = evaluate_facet_frame(nodes, xi);
+  const std::array<int, 2> sides = find_sides<3>(xi);
+  const SpatialVector<3> t0 = make_unit<3>(frame.tangent[0]), t1 = make_unit<3>(frame.tangent[1]);
+  double angle = 2. * pi;
+  if (sides[0] != 0 && sides[1] != 0)
+  {
+    const SpatialVector<3> inward_0 = -sides[0] * t0, inward_1 = -sides[1] * t1;
+    angle = std::atan2(inward_0.cross(inward_1).norm(), inward_0.dot(inward_1));
+    open_rim += sides[0] * sides[1] * (inward_1 - inward_0);
+  }
+  else if (sides[0] != 0 || sides[1] != 0)
+  {
+    angle = pi;
+    open_rim += 2. * (sides[1] * t0 - sides[0] * t1);
+  }
+  normal += angle * make_unit<3>(frame.area_normal);
+}
+
+/// The closest facet, its foot's depth not yet signed. Where several are equally close, the first of them.
+template <int dim>
+SurfaceFoot<dim> find_closest_facet(const std::vector<Facet<dim>> &facets,
+                                    const std::vector<SpatialVector<dim>> &positions,
+                                    const unsigned int *candidates, const unsigned int n_candidates,
+                                    const SpatialVector<dim> &x, const double cutoff)
+{
+  SurfaceFoot<dim> best;
+  best.closest.xi.setZero();
+  best.closest.position = x;
+  best.closest.distance = std::numeric_limits<double>::infinity();
+  best.depth = -std::numeric_limits<double>::infinity();
+  double limit = cutoff;
+  for (unsigned int c = 0; c < n_candidates; ++c)
+  {
+    const FacetNodes<dim> nodes = gather_nodes(facets[candidates[c]], positions);
+    if (make_box(nodes).squared_distance(x) > limit * limit)
+      continue;
+    const ClosestPoint<dim> closest = find_closest_point(nodes, x);
+    if (closest.distance <= cutoff && closest.distance < best.closest.distance * (1. - 1e-12))
+    {
+      best.facet = candidates[c];
+      best.closest = closest;
+      best.depth = -closest.distance;
+      limit = closest.distance;
+    }
+  }
+  return best;
+}
+
+/// All candidates that hold the place `foot`, together.
+template <int dim>
+Fan<dim> gather_fan(const std::vector<Facet<dim>> &facets, const std::vector<SpatialVector<dim>> &positions,
+                    const unsigned int *candidates, const unsigned int n_candidates,
+                    const SpatialVector<dim> &foot)
+{
+  Fan<dim> fan;
+  for (unsigned int c = 0; c < n_candidates; ++c)
+  {
+    const FacetNodes<dim> nodes = gather_nodes(facets[candidates[c]], positions);
+    const Box<dim> box = make_box(nodes);
+    const double tolerance = 2. * tie_tolerance * box.half_width.norm();
+    if (box.squared_distance(foot) > tolerance * tolerance)
+      continue;
+    // Asked from the foot, not from x: a facet that holds the foot may be as close to x at another place too.
+    const ClosestPoint<dim> closest = find_closest_point(nodes, foot);
+    if (closest.distance <= tolerance)
+      fan.add_sector(nodes, closest.xi);
+  }
+  return fan;
+}
+} // namespace
+
+template <int dim>
+SurfaceFoot<dim> find_foot(const std::vector<Facet<dim>> &facets,
+                           const std::vector<SpatialVector<dim>> &positions, const unsigned int *candidates,
+                           const unsigned int n_candidates, const SpatialVector<dim> &x, const double cutoff)
+{
+  SurfaceFoot<dim> foot = find_closest_facet(facets, positions, candidates, n_candidates, x, cutoff);
+  if (std::isinf(foot.closest.distance))
+    return foot;
+
+  const SpatialVector<dim> outwards = foot.closest.position - x;
+  const auto sides = find_sides<dim>(foot.closest.xi);
+  Fan<dim> fan;
+  if (std::all_of(sides.begin(), sides.end(), [](const int side) { return side == 0; }))
+    fan.normal =
+        evaluate_facet_frame(gather_nodes(facets[foot.facet], positions), foot.closest.xi).area_normal;
+  else
+    fan = gather_fan(facets, positions, candidates, n_candidates, foot.closest.position);
+
+  // Beside the rim of an open surface there is no inside; below it there is.
+  const double least = fan.is_closed() ? 0. : std::sqrt(0.5) * foot.closest.distance * fan.normal.norm();
+  foot.depth = outwards.dot(fan.normal) > least ? foot.closest.distance : -foot.closest.distance;
+  return foot;
+}
+
+template SurfaceFoot<2> find_foot(const std::vector<Facet<2>> &, const std::vector<SpatialVector<2>> &,
+                                  const unsigned int *, unsigned int, const SpatialVector<2> &, double);
+template SurfaceFoot<3> find_foot(const std::vector<Facet<3>> &, const std::vector<SpatialVector<3>> &,
+                                  const unsigned int *, unsigned int, const SpatialVector<3> &, double);
+} // namespace signorini::contact

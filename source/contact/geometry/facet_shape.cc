@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "signorini/contact/geometry/facet_shape.h"
+
+#include <Eigen/Geometry>
+
+#include <cassert>
+
+namespace signorini::contact
+{
+namespace
+{
+/// Value, first and second derivative of the Lagrange polynomials of one direction.
+struct LineShape
+{
+  std::array<double, 3> value, first, second;
+};
+
+LineShape evaluate_line_shape(const unsigned int degree, const double s)
+{
+  if (degree == 1)
+    return {{1. - s, s, 0.}, {-1., 1., 0.}, {0., 0., 0.}};
+  return {{(1. - s) * (1. - 2. * s), 4. * s * (1. - s), s * (2. * s - 1.)},
+          {4. * s - 3., 4. - 8. * s, 4. * s - 1.},
+          {4., -8., 4.}};
+}
+} // namespace
+
+template <int dim>
+FacetShape<dim> evaluate_facet_shape(const unsigned int degree, const LocalPoint<dim> &xi)
+{
+  assert(degree == 1 || degree == 2);
+  FacetShape<dim> shape;
+  const LineShape row = evaluate_line_shape(degree, xi[0]);
+  if constexpr (dim == 2)
+  {
+    shape.n_nodes = degree + 1;
+    for (unsigned int i = 0; i <= degree; ++i)
+    {
+      shape.value[i] = row.value[i];
+      shape.first[i] = {row.first[i]};
+      shape.second[i] = {row.second[i]};
+    }
+  }
+  else
+  {
+    const LineShape column = evaluate_line_shape(degree, xi[1]);
+    unsigned int node = 0;
+    for (unsigned int j = 0; j <= degree; ++j)
+      for (unsigned int i = 0; i <= degree; ++i, ++node)
+      {
+        shape.value[node] = row.value[i] * column.value[j];
+        shape.first[node] = {row.first[i] * column.value[j], row.value[i] * column.first[j]};
+        shape.second[node] = {row.second[i] * column.value[j], row.first[i] * column.first[j],
+                              row.value[i] * column.second[j]};
+      }
+    shape.n_nodes = node;
+  }
+  return shape;
+}
+
+template <int dim>
+FacetNodes<dim> gather_nodes(const Facet<dim> &facet, const std::vector<SpatialVector<dim>> &positions)
+{
+  FacetNodes<dim> nodes;
+  nodes.degree = facet.degree;
+  nodes.n_nodes = facet.n_nodes();
+  for (unsigned int i = 0; i < nodes.n_nodes; ++i)
+    nodes.position[i] = positions[facet.nodes[i]];
+  return nodes;
+}
+
+template <int dim>
+FacetFrame<dim> evaluate_facet_frame(const FacetNodes<dim> &nodes, const LocalPoint<dim> &xi)
+{
+  const FacetShape<dim> shape = evaluate_facet_shape<dim>(nodes.degree, xi);
+  FacetFrame<dim> frame;
+  frame.position.setZero();
+  for (auto &tangent : frame.tangent)
+    tangent.setZero();
+  for (unsigned int i = 0; i < shape.n_nodes; ++i)
+  {
+    frame.position += shape.value[i] * nodes.position[i];
+    for (unsigned int a = 0; a < dim - 1; ++a)
+      frame.tangent[a] += shape.first[i][a] * nodes.position[i];
+  }
+  if constexpr (dim == 2)
+    frame.area_normal = SpatialVector<2>(frame.tangent[0].y(), -frame.tangent[0].x());
+  else
+    frame.area_normal = frame.tangent[0].cross(frame.tangent[1]);
+  return frame;
+}
+
+template FacetShape<2> evaluate_facet_shape<2>(unsigned int, const LocalPoint<2> &);
+template FacetShape<3> evaluate_facet_shape<3>(unsigned int, const LocalPoint<3> &);
+template FacetNodes<2> gather_nodes(const Facet<2> &, const std::vector<SpatialVector<2>> &);
+template FacetNodes<3> gather_nodes(const Facet<3> &, const std::vector<SpatialVector<3>> &);
+template FacetFrame<2> evaluate_facet_frame(const FacetNodes<2> &, const LocalPoint<2> &);
+template FacetFrame<3> evaluate_facet_frame(const FacetNodes<3> &, const LocalPoint<3> &);
+} // namespace signorini::contact

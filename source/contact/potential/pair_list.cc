@@ -1,0 +1,246 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "signorini/contact/potential/pair_list.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+
+namespace signorini::contact
+{
+namespace
+{
+/// 1/(1/m_c + 1/m_t) of the two surface layers of mass ρh/2 each; an obstacle does not move.
+template <int dim>
+double compute_layer_mass(const Facet<dim> &contactor, const Facet<dim> *target)
+{
+  const double mass = .5 * contactor.density * contactor.layer_thickness;
+  if (target == nullptr || mass == 0.)
+    return mass;
+  const double target_mass = .5 * target->density * target->layer_thickness;
+  return mass * target_mass / (mass + target_mass);
+}
+} // namespace
+
+template <int dim>
+PairList<dim>::PairList(const ContactSurface<dim> &contact_surface, Obstacles rigid_obstacles,
+                        PotentialSettings potential_settings)
+    : surface(contact_surface), obstacles_(std::move(rigid_obstacles)),
+      settings_(std::move(potential_settings)), skin_(compute_skin()), reach_(compute_reach()),
+      neighbour_list(make_neighbour_list())
+{
+  for (const Facet<dim> &facet : surface.facets)
+    largest_motion_factor = std::max(largest_motion_factor, motion_factor<dim>(facet.degree));
+  for (unsigned int degree : {1, 2})
+    for (const auto &point : make_gauss_points<dim>(settings_.n_quadrature_points))
+      gauss_points[degree - 1].push_back({point, evaluate_facet_shape<dim>(degree, point.xi).value});
+}
+
+template <int dim>
+void PairList<dim>::check_input() const
+{
+  if (!(settings_.penalty_factor > 0.))
+    throw std::invalid_argument(
+        fmt::format("The penalty factor must be positive, but is {}.", settings_.penalty_factor));
+  if (settings_.n_quadrature_points == 0)
+    throw std::invalid_argument("The contact potential needs at least one quadrature point a direction.");
+  if (!(settings_.skin_over_thickness > 0.))
+    throw std::invalid_argument(fmt::format("The skin must be positive, but is {} layer thicknesses.",
+                                            settings_.skin_over_thickness));
+  if (settings_.damping_ratio && !(*settings_.damping_ratio >= 0.))
+    throw std::invalid_argument(
+        fmt::format("The damping ratio must not be negative, but is {}.", *settings_.damping_ratio));
+  for (std::size_t f = 0; f < surface.facets.size(); ++f)
+    if (!(surface.facets[f].layer_thickness > 0.) || !(surface.facets[f].youngs_modulus > 0.))
+      throw std::invalid_argument(
+          fmt::format("Facet {} needs a positive layer thickness and Young's modulus, but has {} and {}.", f,
+                      surface.facets[f].layer_thickness, surface.facets[f].youngs_modulus));
+}
+
+template <int dim>
+double PairList<dim>::compute_skin() const
+{
+  check_input();
+  double thickness = std::numeric_limits<double>::max();
+  for (const Facet<dim> &facet : surface.facets)
+    thickness = std::min(thickness, facet.layer_thickness);
+  return surface.facets.empty() ? 1. : settings_.skin_over_thickness * thickness;
+}
+
+/// At least one skin, so that all within a skin of the surface is seen.
+template <int dim>
+std::vector<double> PairList<dim>::compute_reach() const
+{
+  std::vector<double> all_reach;
+  all_reach.reserve(surface.facets.size());
+  for (const Facet<dim> &facet : surface.facets)
+    all_reach.push_back(std::max(facet.layer_thickness, skin_));
+  return all_reach;
+}
+
+template <int dim>
+NeighbourList<dim> PairList<dim>::make_neighbour_list() const
+{
+  const auto is_allowed = [excluded = settings_.excluded_body_pairs](unsigned int body, unsigned int other)
+  {
+    return std::find(excluded.begin(), excluded.end(), std::pair(body, other)) == excluded.end() &&
+           std::find(excluded.begin(), excluded.end(), std::pair(other, body)) == excluded.end();
+  };
+  return NeighbourList<dim>(surface, reach_, skin_, is_allowed);
+}
+
+template <int dim>
+void PairList<dim>::renew(const Positions &positions)
+{
+  if (neighbour_list.is_stale(positions))
+    neighbour_list.rebuild(positions);
+  positions_at_renewal = positions;
+
+  body_pairs_.clear();
+  for (unsigned int i = 0; i < neighbour_list.neighbours().size(); ++i)
+    add_body_pairs(i, positions);
+
+  obstacle_pairs_.clear();
+  for (unsigned int i = 0; i < obstacles_.size(); ++i)
+    add_obstacle_pairs(i, positions);
+}
+
+template <int dim>
+double PairList<dim>::bound_motion(const Positions &positions) const
+{
+  double largest_square = 0.;
+  for (std::size_t node = 0; node < positions.size(); ++node)
+    largest_square = std::max(largest_square, (positions[node] - positions_at_renewal[node]).squaredNorm());
+  return 2. * largest_motion_factor * std::sqrt(largest_square);
+}
+
+template <int dim>
+SurfaceFoot<dim> PairList<dim>::find_body_foot(const ContactPair<dim> &pair, const Positions &positions,
+                                               const SpatialVector<dim> &x, double cutoff) const
+{
+  const std::vector<unsigned int> &candidates = neighbour_list.neighbours()[pair.neighbours].candidates;
+  return find_foot(surface.facets, positions, candidates.data(), static_cast<unsigned int>(candidates.size()),
+                   x, cutoff);
+}
+
+template <int dim>
+void PairList<dim>::add_body_pairs(unsigned int neighbours, const Positions &positions)
+{
+  const FacetNeighbours &found = neighbour_list.neighbours()[neighbours];
+  if (settings_.integration == Integration::face_segments)
+    for (const unsigned int candidate : found.candidates)
+      add_segment_pairs(neighbours, candidate, positions);
+  else
+    for (const FacetPoint &point : gauss_points[surface.facets[found.facet].degree - 1])
+      add_body_pair(neighbours, point, std::nullopt, positions);
+}
+
+template <int dim>
+void PairList<dim>::add_segment_pairs(unsigned int neighbours, unsigned int candidate,
+                                      const Positions &positions)
+{
+  const Facet<dim> &contactor = surface.facets[neighbour_list.neighbours()[neighbours].facet];
+  for (const auto &point :
+       make_segment_points(gather_nodes(contactor, positions),
+                           gather_nodes(surface.facets[candidate], positions), settings_.n_quadrature_points))
+    add_body_pair(neighbours, {point, evaluate_facet_shape<dim>(contactor.degree, point.xi).value}, candidate,
+                  positions);
+}
+
+template <int dim>
+void PairList<dim>::add_body_pair(unsigned int neighbours, const FacetPoint &point,
+                                  std::optional<unsigned int> facing, const Positions &positions)
+{
+  ContactPair<dim> pair;
+  pair.facet = neighbour_list.neighbours()[neighbours].facet;
+  pair.target = neighbour_list.neighbours()[neighbours].target_body;
+  pair.neighbours = neighbours;
+
+  const double motion = largest_motion_factor * skin_;
+  const SpatialVector<dim> x = interpolate(surface.facets[pair.facet], point.shape, positions);
+  const SurfaceFoot<dim> foot = find_body_foot(pair, positions, x, reach_[pair.facet] + motion);
+  if (foot.depth < -2. * motion) // too far outside (or −∞) to touch before the next renewal
+    return;
+  if (facing && foot.facet != *facing)
+  {
+    // A facet that faces the contactor from the far side of its own body must not make a second point here.
+    // It is told by its distance; near a rim, where the foot may be on the side, the facet above is still
+    // meant.
+    const double distance = find_closest_point(gather_nodes(surface.facets[*facing], positions), x).distance;
+    const double far = std::max(2. * foot.closest.distance, .5 * reach_[pair.facet]);
+    if (distance > std::min(far, reach_[pair.facet]))
+      return;
+  }
+  pair.distance_when_made = foot.closest.distance;
+  set_coefficients(pair, point, &surface.facets[foot.facet]);
+  body_pairs_.push_back(pair);
+}
+
+template <int dim>
+void PairList<dim>::add_obstacle_pairs(unsigned int obstacle, const Positions &positions)
+{
+  const double largest_gap = 2. * largest_motion_factor * skin_;
+  std::vector<typename Obstacle<dim>::Foot> node_feet;
+  obstacles_[obstacle]->find_feet(positions, node_feet);
+
+  std::vector<ContactPair<dim>> near;
+  Positions points;
+  for (unsigned int f = 0; f < surface.facets.size(); ++f)
+  {
+    const Facet<dim> &facet = surface.facets[f];
+    // Depth changes by no more than the distance walked.
+    if (!facet.owned || is_excluded_obstacle(facet.body, obstacle) ||
+        node_feet[facet.nodes[0]].depth + make_facet_box(facet, positions).diagonal().norm() < -largest_gap)
+      continue;
+    for (const FacetPoint &point : gauss_points[facet.degree - 1])
+    {
+      ContactPair<dim> pair;
+      pair.facet = f;
+      pair.target = obstacle;
+      set_coefficients(pair, point, nullptr);
+      near.push_back(pair);
+      points.push_back(interpolate(facet, point.shape, positions));
+    }
+  }
+
+  obstacles_[obstacle]->find_feet(points, node_feet);
+  for (std::size_t i = 0; i < near.size(); ++i)
+    if (node_feet[i].depth >= -largest_gap)
+    {
+      near[i].distance_when_made = std::abs(node_feet[i].depth);
+      obstacle_pairs_.push_back(near[i]);
+    }
+}
+
+template <int dim>
+bool PairList<dim>::is_excluded_obstacle(unsigned int body, unsigned int obstacle) const
+{
+  const auto &excluded = settings_.excluded_obstacle_pairs;
+  return std::find(excluded.begin(), excluded.end(), std::pair(body, obstacle)) != excluded.end();
+}
+
+template <int dim>
+void PairList<dim>::set_coefficients(ContactPair<dim> &pair, const FacetPoint &point,
+                                     const Facet<dim> *target) const
+{
+  const Facet<dim> &contactor = surface.facets[pair.facet];
+  pair.xi = point.point.xi;
+  pair.shape = point.shape;
+  const FacetFrame<dim> undeformed =
+      evaluate_facet_frame(gather_nodes(contactor, surface.reference_positions), pair.xi);
+  pair.area = point.point.weight * undeformed.area_normal.norm() * (target == nullptr ? 1. : .5);
+
+  double compliance = contactor.layer_thickness / contactor.youngs_modulus;
+  if (target != nullptr)
+    compliance += target->layer_thickness / target->youngs_modulus;
+  pair.stiffness = settings_.penalty_factor / compliance;
+  if (settings_.damping_ratio)
+    pair.damping =
+        2. * *settings_.damping_ratio * std::sqrt(pair.stiffness * compute_layer_mass(contactor, target));
+}
+
+template class PairList<2>;
+template class PairList<3>;
+} // namespace signorini::contact

@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "signorini/contact/search/neighbour_list.h"
+
+#include <boost/geometry/geometries/box.hpp>
+#include <boost/geometry/geometries/point.hpp>
+#include <boost/geometry/index/rtree.hpp>
+#include <boost/iterator/function_output_iterator.hpp>
+
+#include <algorithm>
+#include <optional>
+#include <stdexcept>
+#include <utility>
+
+namespace signorini::contact
+{
+namespace
+{
+namespace geometry = boost::geometry;
+
+template <int dim>
+using TreePoint = geometry::model::point<double, dim, geometry::cs::cartesian>;
+template <int dim>
+using TreeBox = geometry::model::box<TreePoint<dim>>;
+template <int dim>
+using TreeEntry = std::pair<TreeBox<dim>, unsigned int>;
+template <int dim>
+using BoxTree = geometry::index::rtree<TreeEntry<dim>, geometry::index::linear<16>>;
+
+template <int dim>
+TreePoint<dim> make_tree_point(const SpatialVector<dim> &x)
+{
+  if constexpr (dim == 2)
+    return {x[0], x[1]};
+  else
+    return {x[0], x[1], x[2]};
+}
+
+template <int dim>
+TreeBox<dim> make_tree_box(const BoundingBox<dim> &box, double margin)
+{
+  const SpatialVector<dim> margins = SpatialVector<dim>::Constant(margin);
+  return {make_tree_point<dim>(box.min() - margins), make_tree_point<dim>(box.max() + margins)};
+}
+
+/// A tree over the boxes with the given indices. Handing over all entries at once packs the tree.
+template <int dim>
+BoxTree<dim> make_tree(const std::vector<BoundingBox<dim>> &boxes, const std::vector<unsigned int> &indices)
+{
+  std::vector<TreeEntry<dim>> entries;
+  entries.reserve(indices.size());
+  for (const unsigned int i : indices)
+    if (!boxes[i].isEmpty())
+      entries.emplace_back(make_tree_box<dim>(boxes[i], 0.), i);
+  return BoxTree<dim>(entries);
+}
+
+/// Appends, in rising order, the indices of the boxes of `tree` no farther than `distance` from `box`.
+template <int dim>
+void append_near_boxes(const BoxTree<dim> &tree, const std::vector<BoundingBox<dim>> &boxes,
+                       const BoundingBox<dim> &box, double distance, std::vector<unsigned int> &near)
+{
+  const auto first_new = static_cast<std::ptrdiff_t>(near.size());
+  const auto append = boost::make_function_output_iterator(
+      [&](const TreeEntry<dim> &entry)
+      {
+        if (boxes[entry.second].squaredExteriorDistance(box) <= distance * distance)
+          near.push_back(entry.second);
+      });
+  tree.query(geometry::index::intersects(make_tree_box<dim>(box, distance)), append);
+  std::sort(near.begin() + first_new, near.end());
+}
+} // namespace
+
+/// The boxes of one configuration. A body's tree over its facets is grown only when another body comes near.
+template <int dim>
+struct NeighbourList<dim>::Boxes
+{
+  std::vector<BoundingBox<dim>> facets;
+  std::vector<BoundingBox<dim>> bodies;
+  BoxTree<dim> body_tree;
+  std::vector<std::optional<BoxTree<dim>>> facet_trees;
+
+  Boxes(const ContactSurface<dim> &surface, const Positions &positions)
+      : bodies(surface.n_bodies), facet_trees(surface.n_bodies)
+  {
+    facets.reserve(surface.facets.size());
+    for (const Facet<dim> &facet : surface.facets)
+    {
+      facets.push_back(make_facet_box(facet, positions));
+      bodies[facet.body].extend(facets.back());
+    }
+    std::vector<unsigned int> all_bodies(surface.n_bodies);
+    for (unsigned int body = 0; body < surface.n_bodies; ++body)
+      all_bodies[body] = body;
+    body_tree = make_tree<dim>(bodies, all_bodies);
+  }
+};
+
+template <int dim>
+NeighbourList<dim>::NeighbourList(const ContactSurface<dim> &contact_surface, std::vector<double> facet_reach,
+                                  double skin_thickness, IsAllowedPair is_allowed_pair)
+    : surface(contact_surface), reach(std::move(facet_reach)), skin(skin_thickness),
+      is_allowed(std::move(is_allowed_pair)), facets_of_body(contact_surface.n_bodies)
+{
+  if (reach.size() != surface.facets.size())
+    throw std::invalid_argument("A neighbour list needs one reach a facet.");
+  if (!(skin > 0.))
+    throw std::invalid_argument("The skin of a neighbour list must be positive.");
+  for (unsigned int f = 0; f < surface.facets.size(); ++f)
+  {
+    facets_of_body.at(surface.facets[f].body).push_back(f);
+    largest_motion_factor = std::max(largest_motion_factor, motion_factor<dim>(surface.facets[f].degree));
+  }
+}
+
+template <int dim>
+bool NeighbourList<dim>::is_stale(const Positions &positions) const
+{
+  if (n_rebuilds_ == 0)
+    return true;
+  const double largest_square = .25 * skin * skin;
+  for (std::size_t node = 0; node < positions.size(); ++node)
+    if (!((positions[node] - positions_at_rebuild[node]).squaredNorm() <= largest_square))
+      return true;
+  return false;
+}
+
+template <int dim>
+void NeighbourList<dim>::rebuild(const Positions &positions)
+{
+  Boxes boxes(surface, positions);
+  neighbours_.clear();
+  for (unsigned int body = 0; body < surface.n_bodies; ++body)
+    add_neighbours_of_body(body, boxes);
+  positions_at_rebuild = positions;
+  ++n_rebuilds_;
+}
+
+template <int dim>
+double NeighbourList<dim>::search_distance(unsigned int facet) const
+{
+  return reach[facet] + largest_motion_factor * skin;
+}
+
+template <int dim>
+std::vector<unsigned int> NeighbourList<dim>::find_near_bodies(unsigned int body, const Boxes &boxes) const
+{
+  double distance = 0.;
+  bool owns_any = false;
+  for (const unsigned int f : facets_of_body[body])
+    if (surface.facets[f].owned)
+    {
+      distance = std::max(distance, search_distance(f));
+      owns_any = true;
+    }
+
+  std::vector<unsigned int> near;
+  if (owns_any)
+    append_near_boxes<dim>(boxes.body_tree, boxes.bodies, boxes.bodies[body], distance, near);
+  near.erase(std::remove_if(near.begin(), near.end(),
+                            [&](unsigned int other) { return other == body || !is_allowed(body, other); }),
+             near.end());
+  return near;
+}
+
+template <int dim>
+void NeighbourList<dim>::add_neighbours_of_body(unsigned int body, Boxes &boxes)
+{
+  const std::vector<unsigned int> targets = find_near_bodies(body, boxes);
+  if (targets.empty())
+    return;
+  for (const unsigned int f : facets_of_body[body])
+    if (surface.facets[f].owned)
+      for (const unsigned int target : targets)
+        add_neighbours_of_facet(f, target, boxes);
+}
+
+template <int dim>
+void NeighbourList<dim>::add_neighbours_of_facet(unsigned int facet, unsigned int target_body, Boxes &boxes)
+{
+  const double distance = search_distance(facet);
+  if (boxes.bodies[target_body].squaredExteriorDistance(boxes.facets[facet]) > distance * distance)
+    return;
+
+  std::optional<BoxTree<dim>> &tree = boxes.facet_trees[target_body];
+  if (!tree)
+    tree = make_tree<dim>(boxes.facets, facets_of_body[target_body]);
+  FacetNeighbours found{facet, target_body, {}};
+  append_near_boxes<dim>(*tree, boxes.facets, boxes.facets[facet], distance, found.candidates);
+  if (!found.candidates.empty())
+    neighbours_.push_back(std::move(found));
+}
+
+template class NeighbourList<2>;
+template class NeighbourList<3>;
+} // namespace signorini::contact

@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "signorini/discretization/scene_mesh.h"
+
+#include "signorini/discretization/body_mesh.h"
+#include "signorini/discretization/placement.h"
+
+#include <deal.II/base/bounding_box.h>
+#include <deal.II/grid/grid_tools.h>
+#include <deal.II/grid/manifold_lib.h>
+
+namespace signorini
+{
+namespace
+{
+constexpr unsigned int max_boundaries_of_a_body = 8;
+
+template <int dim>
+struct CoarseScene
+{
+  std::vector<dealii::Point<dim>> vertices;
+  std::vector<dealii::CellData<dim>> cells;
+  dealii::SubCellData faces;
+};
+
+template <typename Faces>
+void append_faces(const Faces &faces, unsigned int first_vertex, unsigned int body, Faces &all)
+{
+  for (auto face : faces)
+  {
+    for (unsigned int &vertex : face.vertices)
+      vertex += first_vertex;
+    if (face.boundary_id != dealii::numbers::internal_face_boundary_id)
+      face.boundary_id = global_boundary_id(body, face.boundary_id);
+    if (face.manifold_id != dealii::numbers::flat_manifold_id)
+      face.manifold_id = body;
+    all.push_back(face);
+  }
+}
+
+template <int dim>
+void append_body(const BodyParameters &parameters, unsigned int body, CoarseScene<dim> &scene)
+{
+  dealii::Triangulation<dim> mesh;
+  make_coarse_body_mesh(parameters.mesh, mesh);
+  const Placement<dim> placement(parameters.placement);
+  auto [vertices, cells, faces] = dealii::GridTools::get_coarse_mesh_description(mesh);
+
+  const unsigned int first_vertex = scene.vertices.size();
+  for (const dealii::Point<dim> &vertex : vertices)
+    scene.vertices.push_back(placement.place(vertex));
+  for (dealii::CellData<dim> &cell : cells)
+  {
+    for (unsigned int &vertex : cell.vertices)
+      vertex += first_vertex;
+    cell.material_id = body;
+    scene.cells.push_back(cell);
+  }
+  append_faces(faces.boundary_lines, first_vertex, body, scene.faces.boundary_lines);
+  append_faces(faces.boundary_quads, first_vertex, body, scene.faces.boundary_quads);
+}
+
+template <int dim>
+void set_manifold(const BodyParameters &parameters, unsigned int body, dealii::Triangulation<dim> &mesh)
+{
+  const Placement<dim> placement(parameters.placement);
+  const dealii::Point<dim> centre = placement.place(dealii::Point<dim>());
+  if (parameters.mesh.shape == MeshParameters::Shape::ball)
+    mesh.set_manifold(body, dealii::SphericalManifold<dim>(centre));
+  if constexpr (dim == 3)
+    if (parameters.mesh.shape == MeshParameters::Shape::cylinder)
+      mesh.set_manifold(body, dealii::CylindricalManifold<3>(
+                                placement.rotate(dealii::Point<3>::unit_vector(2)), centre));
+}
+
+/// Distance of a cell from what its body is graded towards, in the body's own coordinates.
+template <int dim>
+double distance_to_grading(const BodyParameters &parameters, const Placement<dim> &placement,
+                           const typename dealii::Triangulation<dim>::cell_iterator &cell)
+{
+  const MeshParameters::Grading &grading = *parameters.mesh.grading;
+  std::vector<dealii::Point<dim>> vertices;
+  for (const unsigned int v : cell->vertex_indices())
+    vertices.push_back(placement.own_coordinates(cell->vertex(v)));
+  if (grading.boundary)
+  {
+    double nearest = std::numeric_limits<double>::max();
+    for (const dealii::Point<dim> &vertex : vertices)
+      nearest = std::min(nearest, distance_to_boundary(parameters.mesh, *grading.boundary, vertex));
+    return nearest;
+  }
+  const dealii::BoundingBox<dim> box(vertices);
+  double squared = 0.;
+  for (unsigned int d = 0; d < dim; ++d)
+    squared += std::pow(std::max({box.lower_bound(d) - grading.point[d], grading.point[d] - box.upper_bound(d), 0.}), 2);
+  return std::sqrt(squared);
+}
+
+bool is_refined_in_round(const MeshParameters &mesh, unsigned int level, unsigned int round,
+                         const std::function<double()> &distance)
+{
+  if (level != round)
+    return false;
+  if (round < mesh.refinements)
+    return true;
+  if (!mesh.grading || round >= mesh.refinements + mesh.grading->levels)
+    return false;
+  const unsigned int finer_levels = mesh.refinements + mesh.grading->levels - 1 - round;
+  return distance() <= mesh.grading->distance * std::pow(2., finer_levels);
+}
+
+template <int dim>
+void refine(const std::vector<BodyParameters> &bodies, dealii::parallel::distributed::Triangulation<dim> &mesh)
+{
+  std::vector<Placement<dim>> placements;
+  unsigned int n_rounds = 0;
+  for (const BodyParameters &body : bodies)
+  {
+    placements.emplace_back(body.placement);
+    n_rounds = std::max(n_rounds, body.mesh.refinements + (body.mesh.grading ? body.mesh.grading->levels : 0));
+  }
+  for (unsigned int round = 0; round < n_rounds; ++round)
+  {
+    for (const auto &cell : mesh.active_cell_iterators())
+      if (cell->is_locally_owned())
+      {
+        const unsigned int body = cell->material_id();
+        const auto distance = [&]() { return distance_to_grading<dim>(bodies[body], placements[body], cell); };
+        if (is_refined_in_round(bodies[body].mesh, cell->level(), round, distance))
+          cell->set_refine_flag();
+      }
+    mesh.execute_coarsening_and_refinement();
+  }
+}
+} // namespace
+
+dealii::types::boundary_id global_boundary_id(unsigned int body, unsigned int local_id)
+{
+  AssertIndexRange(local_id, max_boundaries_of_a_body);
+  return max_boundaries_of_a_body * body + local_id;
+}
+
+std::pair<unsigned int, unsigned int> split_boundary_id(dealii::types::boundary_id id)
+{
+  return {id / max_boundaries_of_a_body, id % max_boundaries_of_a_body};
+}
+
+template <int dim>
+std::unique_ptr<dealii::parallel::distributed::Triangulation<dim>>
+make_scene_mesh(const std::vector<BodyParameters> &bodies, const MPI_Comm &communicator)
+{
+  CoarseScene<dim> scene;
+  for (unsigned int body = 0; body < bodies.size(); ++body)
+    append_body(bodies[body], body, scene);
+
+  auto mesh = std::make_unique<dealii::parallel::distributed::Triangulation<dim>>(communicator);
+  mesh->create_triangulation(scene.vertices, scene.cells, scene.faces);
+  for (unsigned int body = 0; body < bodies.size(); ++body)
+    set_manifold(bodies[body], body, *mesh);
+  refine(bodies, *mesh);
+  return mesh;
+}
+
+template std::unique_ptr<dealii::parallel::distributed::Triangulation<2>>
+make_scene_mesh<2>(const std::vector<BodyParameters> &, const MPI_Comm &);
+template std::unique_ptr<dealii::parallel::distributed::Triangulation<3>>
+make_scene_mesh<3>(const std::vector<BodyParameters> &, const MPI_Comm &);
+} // namespace signorini

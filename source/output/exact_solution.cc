@@ -1,0 +1,240 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "signorini/output/exact_solution.h"
+
+#include "signorini/base/exceptions.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+namespace signorini
+{
+namespace
+{
+const double pi = std::acos(-1.);
+
+ErrorRow compare(const std::string &quantity, double computed, double exact)
+{
+  return {quantity, computed, exact, (computed - exact) / std::abs(exact)};
+}
+
+/// 1/E* = Σ (1 − ν²)/E over the two bodies in contact; an obstacle adds nothing.
+double contact_modulus(const Parameters &parameters)
+{
+  double compliance = 0.;
+  const unsigned int n_touching = parameters.obstacles.empty() ? 2 : 1;
+  for (unsigned int body = 0; body < std::min<std::size_t>(n_touching, parameters.bodies.size()); ++body)
+  {
+    const MaterialParameters &material = parameters.bodies[body].material;
+    compliance += (1. - material.poissons_ratio * material.poissons_ratio) / material.youngs_modulus;
+  }
+  return 1. / compliance;
+}
+
+double norm(const std::array<double, 3> &vector)
+{
+  return std::hypot(vector[0], vector[1], vector[2]);
+}
+
+/// Hertz's answers for the force that was measured.
+struct Hertz
+{
+  double radius = 0.;       ///< a
+  double peak_pressure = 0.;///< p₀
+  double approach = 0.;     ///< δ; spheres only
+};
+
+template <int dim>
+Hertz solve_hertz(const Results<dim> &results)
+{
+  const auto &values = results.parameters->exact_solution->values;
+  const double R = values.at("Radius"), fraction = values.at("Fraction of the contact");
+  const double P = results.contact.resultants.at(0).norm() / fraction;
+  const double E = contact_modulus(*results.parameters);
+  if (dim == 2)
+  {
+    const double a = std::sqrt(4. * P * R / (pi * E));
+    return {a, 2. * P / (pi * a), 0.};
+  }
+  const double a = std::cbrt(0.75 * P * R / E);
+  return {a, 1.5 * P / (pi * a * a), a * a / R};
+}
+
+/// Relative L2 distance of the sampled pressure from the exact one, over the sampled area.
+template <int dim>
+double profile_error(const Results<dim> &results)
+{
+  double difference = 0., norm_squared = 0.;
+  for (const auto &sample : results.samples)
+  {
+    const double exact = exact_pressure(results, sample.position.template head<dim - 1>().norm());
+    difference += sample.area * std::pow(sample.pressure - exact, 2);
+    norm_squared += sample.area * exact * exact;
+  }
+  return std::sqrt(difference / norm_squared);
+}
+
+template <int dim>
+std::vector<ErrorRow> hertz(const Results<dim> &results)
+{
+  const Hertz exact = solve_hertz(results);
+  const double fraction = results.parameters->exact_solution->values.at("Fraction of the contact");
+  const double area = results.contact.area / fraction;
+  std::vector<ErrorRow> rows{
+    compare("peak pressure", results.contact.max_pressure, exact.peak_pressure),
+    compare("contact radius", dim == 2 ? area / 2. : std::sqrt(area / pi), exact.radius)};
+  if (dim == 3)
+    rows.push_back(compare("approach", results.largest_support_displacement, exact.approach));
+  rows.push_back({"pressure profile (relative L2 distance)", profile_error(results), 0., profile_error(results)});
+  return rows;
+}
+
+template <int dim>
+std::vector<ErrorRow> squeezed_bars(const Results<dim> &results)
+{
+  const BodyParameters &one = results.parameters->bodies.at(0), &other = results.parameters->bodies.at(1);
+  const double pressure = results.contact.max_pressure;
+  double layers = 0., thickness = 0.;
+  for (unsigned int body = 0; body < 2; ++body)
+    for (unsigned int i = 0; i < results.samples.size(); ++i)
+      if (results.sample_bodies[i] == body && results.samples[i].depth > 0.)
+      {
+        thickness = results.sample_thicknesses[i];
+        layers += pressure * thickness / results.parameters->bodies[body].material.youngs_modulus;
+        break;
+      }
+  const auto shortening = [&](const BodyParameters &body)
+  {
+    return pressure / body.material.youngs_modulus * (body.mesh.upper_corner[dim - 1] - body.mesh.lower_corner[dim - 1]);
+  };
+  const double end = results.body_end_displacement.at(1)[dim - 1];
+  return {compare("penetration over shortening of the surface layers", results.contact.max_penetration / layers,
+                  1. / results.parameters->contact->penalty_factor),
+          compare("displacement of the loaded end", end, shortening(one) + shortening(other))};
+}
+
+template <int dim>
+std::vector<ErrorRow> patch(const Results<dim> &results)
+{
+  const double exact = results.parameters->exact_solution->values.at("Pressure");
+  // Segments cut off by round-off stand for no area and say nothing.
+  double worst = exact, largest_area = 0.;
+  for (const auto &sample : results.samples)
+    largest_area = std::max(largest_area, sample.area);
+  for (const auto &sample : results.samples)
+    if (sample.area > 1e-9 * largest_area && std::abs(sample.pressure - exact) >= std::abs(worst - exact))
+      worst = sample.pressure;
+  const double low = -results.smallest_stress(dim - 1, dim - 1), high = -results.largest_stress(dim - 1, dim - 1);
+  double worst_node = exact;
+  for (const double pressure : results.nodal_pressures)
+    if (std::abs(pressure - exact) >= std::abs(worst_node - exact))
+      worst_node = pressure;
+  const double load = norm(results.total_load);
+  std::vector<ErrorRow> rows{compare("contact pressure (worst point)", worst, exact),
+                             compare("projected contact pressure (worst node)", worst_node, exact),
+                             compare("normal stress (largest)", low, exact),
+                             compare("normal stress (smallest)", high, exact),
+                             compare("resultant", results.contact.resultants.at(0).norm(), load)};
+  double other = 0.;
+  for (unsigned int i = 0; i < 3; ++i)
+    for (unsigned int j = 0; j < 3; ++j)
+      if ((i != dim - 1 || j != dim - 1) && !(dim == 2 && i == 2 && j == 2))
+        other = std::max({other, std::abs(results.smallest_stress(i, j)), std::abs(results.largest_stress(i, j))});
+  rows.push_back({"other stresses over the pressure", other / exact, 0., other / exact});
+  return rows;
+}
+
+/// Time from the first to the last touch, from rows with a contact force.
+double contact_duration(const std::vector<HistoryRow> &history)
+{
+  double first = -1., last = -1.;
+  for (std::size_t i = 1; i < history.size(); ++i)
+    if (norm(history[i].bodies.at(0).contact_force) > 0.)
+    {
+      first = first < 0. ? 0.5 * (history[i - 1].time + history[i].time) : first;
+      last = i + 1 < history.size() ? 0.5 * (history[i].time + history[i + 1].time) : history[i].time;
+    }
+  return last - first;
+}
+
+template <int dim>
+std::vector<ErrorRow> bar_impact(const Results<dim> &results)
+{
+  const BodyParameters &bar = results.parameters->bodies.at(0);
+  const double length = bar.mesh.upper_corner[dim - 1] - bar.mesh.lower_corner[dim - 1];
+  const double wave_speed = std::sqrt(bar.material.youngs_modulus / bar.material.density);
+  const HistoryRow &start = results.history.front(), &end = results.history.back();
+  const double v_one = start.bodies.at(0).velocity[dim - 1], v_other = start.bodies.at(1).velocity[dim - 1];
+  const double exchanged = end.bodies.at(0).velocity[dim - 1] - v_one;
+  double peak_force = 0.;
+  for (const HistoryRow &row : results.history)
+    peak_force = std::max(peak_force, norm(row.bodies.at(0).contact_force));
+  const double area = results.body_volumes.at(0) / length;
+  const double exact_force = 0.5 * bar.material.density * wave_speed * std::abs(v_other - v_one) * area;
+  const EnergyLedger &energy = results.energy;
+  return {compare("momentum exchange (velocity)", exchanged, v_other - v_one),
+          compare("mechanical energy", energy.kinetic + energy.elastic + energy.contact, energy.initial),
+          compare("contact time", contact_duration(results.history), 2. * length / wave_speed),
+          compare("peak contact force", peak_force, exact_force)};
+}
+
+template <int dim>
+std::vector<ErrorRow> bounce(const Results<dim> &results)
+{
+  const HistoryRow &start = results.history.front(), &end = results.history.back();
+  // The dashpot is scaled with the mass of half a layer of elements but moves all of the block's layers.
+  const MeshParameters &mesh = results.parameters->bodies.at(0).mesh;
+  const double n_layers = mesh.cells[dim - 1] * std::pow(2., mesh.refinements);
+  const double ratio = results.parameters->contact->damping->damping_ratio / std::sqrt(2. * n_layers);
+  return {compare("restitution", -end.bodies.at(0).velocity[dim - 1] / start.bodies.at(0).velocity[dim - 1],
+                  restitution(ratio))};
+}
+
+template <int dim>
+using Case = std::pair<std::string, std::function<std::vector<ErrorRow>(const Results<dim> &)>>;
+
+template <int dim>
+const std::vector<Case<dim>> &cases()
+{
+  static const std::vector<Case<dim>> table{{"Hertz sphere", hertz<dim>},        {"Hertz cylinder", hertz<dim>},
+                                            {"Squeezed bars", squeezed_bars<dim>}, {"Patch", patch<dim>},
+                                            {"Bar impact", bar_impact<dim>},      {"Bounce", bounce<dim>}};
+  return table;
+}
+} // namespace
+
+template <int dim>
+std::vector<ErrorRow> compute_errors(const Results<dim> &results)
+{
+  for (const auto &[name, compute] : cases<dim>())
+    if (results.parameters->exact_solution && name == results.parameters->exact_solution->name)
+      return compute(results);
+  return {};
+}
+
+bool has_exact_profile(const Parameters &parameters)
+{
+  return parameters.exact_solution && parameters.exact_solution->name.rfind("Hertz", 0) == 0;
+}
+
+template <int dim>
+double exact_pressure(const Results<dim> &results, double radius)
+{
+  const Hertz exact = solve_hertz(results);
+  return radius < exact.radius ? exact.peak_pressure * std::sqrt(1. - std::pow(radius / exact.radius, 2)) : 0.;
+}
+
+double restitution(double damping_ratio)
+{
+  // Doubling the angle turns the usual π − atan(2ξ√(1−ξ²)/(1−2ξ²)) into 2 acos ξ, which goes on beyond ξ = 1.
+  const double xi = damping_ratio;
+  if (xi < 1.)
+    return std::exp(-2. * xi * std::acos(xi) / std::sqrt(1. - xi * xi));
+  return xi > 1. ? std::exp(-2. * xi * std::acosh(xi) / std::sqrt(xi * xi - 1.)) : std::exp(-2.);
+}
+
+template std::vector<ErrorRow> compute_errors<2>(const Results<2> &);
+template std::vector<ErrorRow> compute_errors<3>(const Results<3> &);
+template double exact_pressure<2>(const Results<2> &, double);
+template double exact_pressure<3>(const Results<3> &, double);
+} // namespace signorini

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "signorini/output/summary.h"
+
+#include "signorini/base/exceptions.h"
+#include "signorini/base/version.h"
+#include "signorini/output/exact_solution.h"
+#include "signorini/output/statistics.h"
+
+#include <nlohmann/json.hpp>
+
+#include <fstream>
+
+namespace signorini
+{
+namespace
+{
+using Json = nlohmann::ordered_json;
+
+template <int dim>
+Json describe_parts(const Results<dim> &results)
+{
+  Json left_out = Json::array();
+  for (const LeftOutPart &part : results.parts_left_out)
+    left_out.push_back({{"name", part.name}, {"reason", part.reason}});
+  return {{"built", results.parts_built}, {"left_out", left_out}};
+}
+
+template <int dim>
+Json describe_contact(const Results<dim> &results)
+{
+  const contact::ContactMeasures<dim> &contact = results.contact;
+  Json resultants = Json::array();
+  for (const SpatialVector<dim> &resultant : contact.resultants)
+    resultants.push_back(std::vector<double>(resultant.data(), resultant.data() + dim));
+  return {{"alpha", results.parameters->contact->penalty_factor},
+          {"effective_stiffness", contact.max_stiffness},
+          {"max_penetration", contact.max_penetration},
+          {"max_penetration_over_h", results.max_penetration_over_thickness},
+          {"max_pressure", contact.max_pressure},
+          {"area", contact.area},
+          {"resultant", resultants},
+          {"n_pairs_max", results.max_n_pairs},
+          {"touching", contact.n_active > 0}};
+}
+
+template <int dim>
+Json describe_energy(const Results<dim> &results)
+{
+  const EnergyLedger &energy = results.energy;
+  return {{"kinetic", energy.kinetic},
+          {"elastic", energy.elastic},
+          {"contact", energy.contact},
+          {"dissipated", energy.dissipated},
+          {"work", energy.work_of_loads + energy.work_of_supports},
+          {"contact_renewals", energy.contact_renewals},
+          {"initial", energy.initial},
+          {"ledger_residual", energy.residual()},
+          {"max_ledger_residual", results.max_ledger_residual}};
+}
+
+template <int dim>
+Json describe_errors(const Results<dim> &results)
+{
+  Json errors = Json::array();
+  for (const ErrorRow &row : results.errors)
+    errors.push_back({{"quantity", row.quantity},
+                      {"computed", row.computed},
+                      {"exact", row.exact},
+                      {"relative_error", row.relative_error}});
+  return errors;
+}
+} // namespace
+
+template <int dim>
+void write_summary(const Results<dim> &results, const std::string &input, unsigned int n_ranks,
+                   const std::string &directory)
+{
+  Json summary{{"program", "signorini"},     {"version", program_version()},           {"status", results.status},
+               {"input", input},             {"n_ranks", n_ranks},           {"parts", describe_parts(results)},
+               {"n_dofs", results.n_dofs},   {"n_cells", results.n_cells},   {"n_steps", results.n_steps},
+               {"n_iterations", results.n_iterations}};
+  summary["run_time"] = {{"total", results.total_run_time}, {"sections", results.run_time}};
+  summary["memory_peak_mb"] = results.memory_peak_mb;
+  if (results.has_contact)
+    summary["contact"] = describe_contact(results);
+  if (results.has_ledger)
+  {
+    summary["energy"] = describe_energy(results);
+    summary["momentum"] = {{"linear_drift", results.max_linear_drift}, {"angular_drift", results.max_angular_drift}};
+  }
+  summary["errors"] = describe_errors(results);
+
+  const std::string name = directory + "/summary.json";
+  std::ofstream file(name);
+  file << summary.dump(2) << '\n';
+  if (!file.flush())
+    throw FileError("cannot write '" + name + "': is the disk full?");
+}
+
+template <int dim>
+void write_profile(const Results<dim> &results, const std::string &directory)
+{
+  if (!has_exact_profile(*results.parameters))
+    return;
+  Statistics profile(directory + "/profile.csv");
+  for (const auto &sample : results.samples)
+  {
+    const double radius = sample.position.template head<dim - 1>().norm();
+    profile.write({{"radius [m]", radius},
+                   {"pressure [Pa]", sample.pressure},
+                   {"exact pressure [Pa]", exact_pressure(results, radius)}});
+  }
+}
+
+template void write_summary<2>(const Results<2> &, const std::string &, unsigned int, const std::string &);
+template void write_summary<3>(const Results<3> &, const std::string &, unsigned int, const std::string &);
+template void write_profile<2>(const Results<2> &, const std::string &);
+template void write_profile<3>(const Results<3> &, const std::string &);
+} // namespace signorini

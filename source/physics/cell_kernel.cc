@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "signorini/physics/cell_kernel.h"
+
+#include <algorithm>
+
+namespace signorini
+{
+template <int dim, typename Law>
+typename CellKernel<dim, Law>::Gradient
+CellKernel<dim, Law>::displacement_gradient(const CellGeometry &cell, unsigned int point, const double *u) const
+{
+  double H[dim][dim] = {};
+  const double *g = cell.gradients + point * cell.n_nodes * dim;
+  for (unsigned int a = 0; a < cell.n_nodes; ++a)
+    for (int i = 0; i < dim; ++i)
+      for (int j = 0; j < dim; ++j)
+        H[i][j] += u[a * dim + i] * g[a * dim + j];
+  Gradient gradient;
+  for (int i = 0; i < dim; ++i)
+    for (int j = 0; j < dim; ++j)
+      gradient(i, j) = H[i][j];
+  return gradient;
+}
+
+template <int dim, typename Law>
+void CellKernel<dim, Law>::evaluate_volume(const CellGeometry &cell, const double *u, Order order)
+{
+  gradients.resize(cell.n_points);
+  ratios.resize(cell.n_points);
+  volumes.resize(cell.n_points);
+  cell_volume = 0.;
+  double mean_ratio = 0.;
+  for (unsigned int q = 0; q < cell.n_points; ++q)
+  {
+    gradients[q] = displacement_gradient(cell, q, u);
+    law.volume_ratio(gradients[q], order, ratios[q]);
+    cell_volume += cell.weights[q];
+    mean_ratio += cell.weights[q] * ratios[q].value;
+  }
+  mean_ratio /= cell_volume;
+  for (unsigned int q = 0; q < cell.n_points; ++q)
+    volumes[q] = law.volume(uses_mean_volume ? mean_ratio : ratios[q].value);
+}
+
+template <int dim, typename Law>
+double CellKernel<dim, Law>::energy(const CellGeometry &cell, const double *u)
+{
+  evaluate_volume(cell, u, Order::first);
+  double energy = 0.;
+  ShapeResponse<dim> response;
+  for (unsigned int q = 0; q < cell.n_points; ++q)
+  {
+    law.shape(gradients[q], Order::first, response);
+    energy += cell.weights[q] * (response.energy + volumes[q].energy);
+  }
+  return energy;
+}
+
+template <int dim, typename Law>
+void CellKernel<dim, Law>::add_force(const CellGeometry &cell, const double *u, double *force)
+{
+  evaluate_volume(cell, u, Order::first);
+  ShapeResponse<dim> response;
+  for (unsigned int q = 0; q < cell.n_points; ++q)
+  {
+    law.shape(gradients[q], Order::first, response);
+    double stress[dim * dim];
+    for (int i = 0; i < dim * dim; ++i)
+      stress[i] = cell.weights[q] * (response.stress[i] + volumes[q].pressure * ratios[q].gradient[i]);
+    const double *g = cell.gradients + q * cell.n_nodes * dim;
+    for (unsigned int a = 0; a < cell.n_nodes; ++a)
+      for (int i = 0; i < dim; ++i)
+        for (int j = 0; j < dim; ++j)
+          force[a * dim + i] -= stress[i * dim + j] * g[a * dim + j];
+  }
+}
+
+template <int dim, typename Law>
+void CellKernel<dim, Law>::compute_tangent(const CellGeometry &cell, const double *u, double *tangent)
+{
+  const unsigned int n = cell.n_nodes * dim;
+  std::fill(tangent, tangent + n * n, 0.);
+  mean_ratio_gradient.assign(n, 0.);
+  evaluate_volume(cell, u, Order::second);
+  ShapeResponse<dim> response;
+  for (unsigned int q = 0; q < cell.n_points; ++q)
+  {
+    law.shape(gradients[q], Order::second, response);
+    Eigen::Matrix<double, dim * dim, dim *dim> A = response.tangent + volumes[q].pressure * ratios[q].hessian;
+    if (!uses_mean_volume)
+      A += volumes[q].modulus * ratios[q].gradient * ratios[q].gradient.transpose();
+    A *= cell.weights[q];
+    const double *g = cell.gradients + q * cell.n_nodes * dim;
+    for (unsigned int a = 0; a < cell.n_nodes; ++a)
+      for (int i = 0; i < dim; ++i)
+      {
+        double row[dim * dim] = {};
+        for (int j = 0; j < dim; ++j)
+          for (int kl = 0; kl < dim * dim; ++kl)
+            row[kl] += g[a * dim + j] * A(i * dim + j, kl);
+        double *tangent_row = tangent + (a * dim + i) * n;
+        for (unsigned int b = 0; b < cell.n_nodes; ++b)
+          for (int k = 0; k < dim; ++k)
+            for (int l = 0; l < dim; ++l)
+              tangent_row[b * dim + k] += row[k * dim + l] * g[b * dim + l];
+        for (int j = 0; j < dim; ++j)
+          mean_ratio_gradient[a * dim + i] += cell.weights[q] * ratios[q].gradient[i * dim + j] * g[a * dim + j];
+      }
+  }
+  if (uses_mean_volume)
+    for (unsigned int i = 0; i < n; ++i)
+      for (unsigned int j = 0; j < n; ++j)
+        tangent[i * n + j] += volumes[0].modulus / cell_volume * mean_ratio_gradient[i] * mean_ratio_gradient[j];
+}
+
+template <int dim, typename Law>
+Eigen::Matrix3d CellKernel<dim, Law>::mean_stress(const CellGeometry &cell, const double *u)
+{
+  evaluate_volume(cell, u, Order::first);
+  Eigen::Matrix3d mean = Eigen::Matrix3d::Zero();
+  for (unsigned int q = 0; q < cell.n_points; ++q)
+    mean += cell.weights[q] / cell_volume * law.cauchy_stress(gradients[q], volumes[q].pressure);
+  return mean;
+}
+
+template class CellKernel<2, LinearElastic<2>>;
+template class CellKernel<3, LinearElastic<3>>;
+template class CellKernel<2, NeoHookean<2>>;
+template class CellKernel<3, NeoHookean<3>>;
+} // namespace signorini

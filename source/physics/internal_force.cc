@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "signorini/physics/internal_force.h"
+
+#include <deal.II/base/mpi.h>
+
+namespace signorini
+{
+template <int dim>
+InternalForce<dim>::InternalForce(const std::vector<MaterialParameters> &materials,
+                                  const Discretization<dim> &the_discretization)
+  : ForceTerm("elasticity", Kind::elastic, false)
+  , discretization(&the_discretization)
+{
+  for (const MaterialParameters &material : materials)
+  {
+    const double E = material.youngs_modulus, nu = material.poissons_ratio;
+    const double shear_modulus = E / (2. * (1. + nu)), bulk_modulus = E / (3. * (1. - 2. * nu));
+    const unsigned int degree = discretization->element.degree;
+    moduli.push_back(bulk_modulus + 4. / 3. * shear_modulus);
+    if (material.model == MaterialParameters::Model::linear_elastic)
+      kernels.emplace_back(CellKernel<dim, LinearElastic<dim>>({shear_modulus, bulk_modulus}, degree));
+    else
+      kernels.emplace_back(CellKernel<dim, NeoHookean<dim>>({shear_modulus, bulk_modulus}, degree));
+  }
+}
+
+template <int dim>
+void InternalForce<dim>::update(const State &state)
+{
+  displacement = &state.displacement;
+}
+
+template <int dim>
+template <typename Action>
+void InternalForce<dim>::for_each_cell(const Action &action) const
+{
+  const CellTable<dim> &cells = discretization->cells;
+  std::vector<double> u(cells.n_cell_dofs());
+  unsigned int cell = 0;
+  while (cell < cells.n_cells)
+  {
+    const unsigned int body = cells.bodies[cell];
+    std::visit(
+      [&](auto &kernel)
+      {
+        for (; cell < cells.n_cells && cells.bodies[cell] == body; ++cell)
+        {
+          const unsigned int *dofs = cells.cell_dofs(cell);
+          for (unsigned int i = 0; i < u.size(); ++i)
+            u[i] = displacement->local_element(dofs[i]);
+          action(kernel, cell,
+                 CellGeometry{cells.n_nodes, cells.n_points, cells.cell_gradients(cell), cells.cell_weights(cell)},
+                 u.data());
+        }
+      },
+      kernels[body]);
+  }
+}
+
+template <int dim>
+double InternalForce<dim>::energy() const
+{
+  double sum = 0.;
+  for_each_cell([&](auto &kernel, unsigned int, const CellGeometry &geometry, const double *u)
+                { sum += kernel.energy(geometry, u); });
+  return dealii::Utilities::MPI::sum(sum, discretization->communicator());
+}
+
+template <int dim>
+void InternalForce<dim>::add_force(Vector &force) const
+{
+  const CellTable<dim> &cells = discretization->cells;
+  std::vector<double> cell_force(cells.n_cell_dofs());
+  for_each_cell(
+    [&](auto &kernel, unsigned int cell, const CellGeometry &geometry, const double *u)
+    {
+      std::fill(cell_force.begin(), cell_force.end(), 0.);
+      kernel.add_force(geometry, u, cell_force.data());
+      const unsigned int *dofs = cells.cell_dofs(cell);
+      for (unsigned int i = 0; i < cell_force.size(); ++i)
+        force.local_element(dofs[i]) += cell_force[i];
+    });
+}
+
+template <int dim>
+void InternalForce<dim>::for_each_tangent(
+  const std::function<void(unsigned int, const std::vector<double> &)> &visit) const
+{
+  std::vector<double> tangent(discretization->cells.n_cell_dofs() * discretization->cells.n_cell_dofs());
+  for_each_cell(
+    [&](auto &kernel, unsigned int cell, const CellGeometry &geometry, const double *u)
+    {
+      kernel.compute_tangent(geometry, u, tangent.data());
+      visit(cell, tangent);
+    });
+}
+
+template <int dim>
+void InternalForce<dim>::add_tangent(TangentSystem &system) const
+{
+  const CellTable<dim> &cells = discretization->cells;
+  const unsigned int n = cells.n_cell_dofs();
+  const auto &partitioner = *displacement->get_partitioner();
+  dealii::FullMatrix<double> matrix(n, n);
+  dealii::Vector<double> zero(n);
+  std::vector<dealii::types::global_dof_index> dofs(n);
+  for_each_tangent(
+    [&](unsigned int cell, const std::vector<double> &tangent)
+    {
+      matrix.fill(tangent.data());
+      for (unsigned int i = 0; i < n; ++i)
+        dofs[i] = partitioner.local_to_global(cells.cell_dofs(cell)[i]);
+      system.constraints->distribute_local_to_global(matrix, zero, dofs, system.matrix, system.right_hand_side);
+    });
+}
+
+template <int dim>
+void InternalForce<dim>::add_magnitudes(Vector &magnitudes) const
+{
+  const CellTable<dim> &cells = discretization->cells;
+  std::vector<double> slopes(cells.n_nodes);
+  for_each_cell(
+    [&](auto &, unsigned int cell, const CellGeometry &geometry, const double *u)
+    {
+      const unsigned int *dofs = cells.cell_dofs(cell);
+      for (unsigned int q = 0; q < geometry.n_points; ++q)
+      {
+        double strain = 1.; // of F and v the laws subtract 1
+        for (unsigned int a = 0; a < geometry.n_nodes; ++a)
+        {
+          const double *gradient = geometry.gradients + (q * geometry.n_nodes + a) * dim;
+          slopes[a] = Eigen::Map<const SpatialVector<dim>>(gradient).norm();
+          strain += slopes[a] * Eigen::Map<const SpatialVector<dim>>(u + a * dim).norm();
+        }
+        const double stress = moduli[cells.bodies[cell]] * strain;
+        for (unsigned int i = 0; i < cells.n_cell_dofs(); ++i)
+          magnitudes.local_element(dofs[i]) += geometry.weights[q] * stress * slopes[i / dim];
+      }
+    });
+}
+
+template <int dim>
+std::vector<Eigen::Matrix3d> InternalForce<dim>::stresses() const
+{
+  std::vector<Eigen::Matrix3d> all;
+  for_each_cell([&](auto &kernel, unsigned int, const CellGeometry &geometry, const double *u)
+                { all.push_back(kernel.mean_stress(geometry, u)); });
+  return all;
+}
+
+template class InternalForce<2>;
+template class InternalForce<3>;
+} // namespace signorini

@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// What a Simulation says of itself: its plan before the run, its results after.
+#include "signorini/simulation/simulation.h"
+
+#include "signorini/output/exact_solution.h"
+#include "signorini/output/summary.h"
+#include "signorini/physics/mass.h"
+
+#include <deal.II/base/utilities.h>
+
+#include <fmt/core.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+namespace signorini
+{
+template <int dim>
+void Simulation<dim>::print_plan()
+{
+  progress.say(fmt::format("{} bodies, {} obstacles, {} cells of degree {}, {} dofs, {} ranks", scene.n_bodies(),
+                           scene.obstacles.size(), results.n_cells, parameters.degree, results.n_dofs,
+                           dealii::Utilities::MPI::n_mpi_processes(communicator)));
+  progress.say(fmt::format("Built: {}", fmt::join(results.parts_built, ", ")));
+  for (const LeftOutPart &part : results.parts_left_out)
+    progress.say(fmt::format("Left out: {} ({})", part.name, part.reason));
+  if (results.has_contact)
+    progress.say(fmt::format("Contact: alpha = {}, k_A = {:.4g} Pa/m at most where surfaces are near, {} facets",
+                             parameters.contact->penalty_factor, results.contact.max_stiffness,
+                             surface_map->surface().facets.size()));
+  if (const auto *quasi_static = std::get_if<QuasiStaticParameters>(&parameters.solver))
+    progress.say(fmt::format("Quasi-static: {} load steps to {}", quasi_static->load_steps, quasi_static->end_time));
+  else
+  {
+    const auto &explicit_parameters = std::get<ExplicitParameters>(parameters.solver);
+    ExplicitSolver<dim> solver(*discretization, *supports, scene.materials, forces, explicit_parameters, run_time);
+    State trial = state;
+    solver.start(trial);
+    const double step = solver.stable_step();
+    progress.say(fmt::format("Explicit: first time step {:.4g} s, about {:.0f} steps to {} s", step,
+                             explicit_parameters.end_time / step, explicit_parameters.end_time));
+  }
+  progress.say(fmt::format("Memory after set-up: {:.0f} MB on all ranks", memory_mb()));
+}
+
+template <int dim>
+double Simulation<dim>::memory_mb() const
+{
+  dealii::Utilities::System::MemoryStats memory;
+  dealii::Utilities::System::get_memory_stats(memory);
+  return dealii::Utilities::MPI::sum(static_cast<double>(memory.VmHWM), communicator) / 1024.;
+}
+
+template <int dim>
+void Simulation<dim>::measure_bodies()
+{
+  const Vector volume = make_nodal_volume(*discretization);
+  results.body_volumes.assign(scene.n_bodies(), 0.);
+  for (const OwnedNode<dim> &node : discretization->owned_nodes)
+    results.body_volumes[node.body] += volume.local_element(node.dofs[0]);
+  dealii::Utilities::MPI::sum(results.body_volumes, communicator, results.body_volumes);
+  for (unsigned int body = 0; body < scene.n_bodies(); ++body)
+    results.body_masses.push_back(results.body_volumes[body] * scene.materials[body].density);
+}
+
+template <int dim>
+void Simulation<dim>::gather_samples()
+{
+  std::vector<double> packed;
+  for (const auto &term : forces.contacts)
+    for (const contact::ContactSample<dim> &sample : term->samples())
+    {
+      packed.insert(packed.end(), {static_cast<double>(sample.facet), sample.depth, sample.pressure, sample.area});
+      packed.insert(packed.end(), sample.position.begin(), sample.position.end());
+    }
+  for (const std::vector<double> &of_rank : dealii::Utilities::MPI::all_gather(communicator, packed))
+    for (auto value = of_rank.begin(); value != of_rank.end();)
+    {
+      contact::ContactSample<dim> sample;
+      sample.facet = static_cast<unsigned int>(*value++);
+      sample.depth = *value++;
+      sample.pressure = *value++;
+      sample.area = *value++;
+      for (double &coordinate : sample.position)
+        coordinate = *value++;
+      results.samples.push_back(sample);
+      results.sample_bodies.push_back(surface_map->surface().facets[sample.facet].body);
+      results.sample_thicknesses.push_back(surface_map->surface().facets[sample.facet].layer_thickness);
+    }
+}
+
+template <int dim>
+void Simulation<dim>::gather_nodal_pressures()
+{
+  for (const auto &term : forces.contacts)
+  {
+    const std::vector<SpatialVector<dim>> nodal_forces = term->nodal_forces();
+    const std::vector<double> areas = term->nodal_areas();
+    const double largest_area = areas.empty() ? 0. : *std::max_element(areas.begin(), areas.end());
+    for (unsigned int node = 0; node < areas.size(); ++node)
+      if (areas[node] > 1e-9 * largest_area)
+        results.nodal_pressures.push_back(nodal_forces[node].norm() / areas[node]);
+  }
+}
+
+template <int dim>
+void Simulation<dim>::gather_extremes()
+{
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  Eigen::Matrix3d low = Eigen::Matrix3d::Constant(infinity), high = -low;
+  for (const Eigen::Matrix3d &stress : forces.elasticity->stresses())
+  {
+    low = low.cwiseMin(stress);
+    high = high.cwiseMax(stress);
+  }
+  MPI_Allreduce(low.data(), results.smallest_stress.data(), 9, MPI_DOUBLE, MPI_MIN, communicator);
+  MPI_Allreduce(high.data(), results.largest_stress.data(), 9, MPI_DOUBLE, MPI_MAX, communicator);
+
+  results.body_end_displacement.assign(scene.n_bodies(), {});
+  for (const OwnedNode<dim> &node : discretization->owned_nodes)
+    for (unsigned int d = 0; d < dim; ++d)
+    {
+      double &largest = results.body_end_displacement[node.body][d];
+      largest = std::max(largest, std::abs(state.displacement.local_element(node.dofs[d])));
+    }
+  for (auto &largest : results.body_end_displacement)
+    MPI_Allreduce(MPI_IN_PLACE, largest.data(), 3, MPI_DOUBLE, MPI_MAX, communicator);
+  for (const auto &entry : supports->entries())
+    results.largest_support_displacement =
+      std::max(results.largest_support_displacement, std::abs(supports->value(entry, state.time)));
+
+  Vector load_force = discretization->make_vector();
+  for (const auto &load : forces.loads)
+  {
+    load->update(state);
+    load->add_force(load_force);
+  }
+  results.total_load = sum_over_nodes(*discretization, state.displacement, load_force).vector;
+}
+
+template <int dim>
+void Simulation<dim>::finish(const std::string &status)
+{
+  results.status = status;
+  results.memory_peak_mb = memory_mb();
+  gather_samples();
+  gather_nodal_pressures();
+  gather_extremes();
+  if (status == "ok")
+    results.errors = compute_errors(results);
+  results.run_time = run_time.sections();
+  results.total_run_time = run_time.total();
+  if (dealii::Utilities::MPI::this_mpi_process(communicator) == 0)
+  {
+    const unsigned int n_ranks = dealii::Utilities::MPI::n_mpi_processes(communicator);
+    write_summary(results, input, n_ranks, parameters.output.directory);
+    if (status == "ok")
+      write_profile(results, parameters.output.directory);
+  }
+  print_results();
+}
+
+template <int dim>
+void Simulation<dim>::print_results()
+{
+  if (results.has_contact)
+    progress.say(results.contact.n_active > 0
+                   ? fmt::format("Contact: largest pressure {:.6g} Pa, penetration/h {:.3g}, area {:.6g}",
+                                 results.contact.max_pressure, results.contact.max_penetration_over_thickness,
+                                 results.contact.area)
+                   : "Contact: nothing touches at the end of the run");
+  if (results.has_ledger)
+    progress.say(fmt::format("Energy ledger open by {:.2e} at most; momentum drift {:.2e} linear, {:.2e} angular",
+                             results.max_ledger_residual, results.max_linear_drift, results.max_angular_drift));
+  for (const ErrorRow &row : results.errors)
+    progress.say(fmt::format("{:<52} {:>14.7g}  exact {:>14.7g}  error {:+.3e}", row.quantity, row.computed, row.exact,
+                             row.relative_error));
+  double named = 0.;
+  for (const auto &[name, seconds] : results.run_time)
+  {
+    progress.say(fmt::format("{:<26} {:9.2f} s  {:5.1f} %", name, seconds, 100. * seconds / results.total_run_time));
+    named += seconds;
+  }
+  progress.say(fmt::format("{:<26} {:9.2f} s  {:5.1f} %", "everything else", results.total_run_time - named,
+                           100. * (1. - named / results.total_run_time)));
+  progress.say(fmt::format("{:<26} {:9.2f} s", "total", results.total_run_time));
+  progress.say("Output: " + parameters.output.directory);
+}
+
+template class Simulation<2>;
+template class Simulation<3>;
+} // namespace signorini

@@ -1,0 +1,242 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "signorini/solvers/explicit_solver.h"
+
+#include "signorini/physics/mass.h"
+
+#include <algorithm>
+
+namespace signorini
+{
+template <int dim>
+ExplicitSolver<dim>::ExplicitSolver(const Discretization<dim> &the_discretization,
+                                    const SupportedDofs<dim> &supported_dofs,
+                                    const std::vector<MaterialParameters> &the_materials, SceneForces<dim> &the_forces,
+                                    const ExplicitParameters &explicit_parameters, RunTime &the_run_time)
+  : discretization(&the_discretization)
+  , supports(&supported_dofs)
+  , materials(&the_materials)
+  , forces(&the_forces)
+  , parameters(explicit_parameters)
+  , run_time(&the_run_time)
+  , mass(make_lumped_mass(the_materials, the_discretization))
+{
+  for (Vector *vector : {&force, &load_force, &damping_force, &one_damping_force, &external_force, &old_force,
+                         &old_load_force, &old_damping_force})
+    *vector = discretization->make_vector();
+  std::vector<bool> is_supported(mass.locally_owned_size(), false);
+  for (const unsigned int dof : supports->owned_dofs())
+    is_supported[dof] = true;
+  for (const OwnedNode<dim> &node : discretization->owned_nodes)
+    if (std::any_of(node.dofs.begin(), node.dofs.end(), [&](unsigned int dof) { return is_supported[dof]; }))
+      dofs_of_supported_nodes.insert(dofs_of_supported_nodes.end(), node.dofs.begin(), node.dofs.end());
+  has_external_forces = !forces->loads.empty();
+  for (const auto &contact : forces->contacts)
+    has_external_forces |= contact->is_external;
+}
+
+template <int dim>
+void ExplicitSolver<dim>::start(State &state)
+{
+  supports->impose(0., state.displacement);
+  discretization->distribute(state.displacement);
+  discretization->distribute(state.velocity);
+  for (const auto &contact : forces->contacts)
+    contact->renew(state);
+  compute_forces(state, state.velocity);
+  update_bulk_bound();
+  take_stock(state);
+  energy_ledger.initial = energy_ledger.kinetic + energy_ledger.elastic + energy_ledger.contact;
+  momentum_ledger.initial_linear = momentum_ledger.linear;
+  momentum_ledger.initial_angular = momentum_ledger.angular;
+}
+
+template <int dim>
+double ExplicitSolver<dim>::stable_step() const
+{
+  unsigned int n_searches = 0;
+  for (const auto &contact : forces->contacts)
+    n_searches += contact->n_searches();
+  if (n_searches != n_searches_of_bound)
+  {
+    std::vector<const ContactForce<dim> *> contacts;
+    for (const auto &contact : forces->contacts)
+      contacts.push_back(contact.get());
+    contact_bound = compute_contact_bound(contacts, mass, *discretization);
+    n_searches_of_bound = n_searches;
+  }
+  const double bulk = parameters.bulk_step_factor * critical_time_step(bulk_frequency_squared, 0.);
+  if (contact_bound.frequency_squared == 0.)
+    return bulk;
+  const double with_contact =
+    critical_time_step(bulk_frequency_squared + contact_bound.frequency_squared, contact_bound.damping_rate);
+  return std::min(bulk, parameters.contact_step_factor * with_contact);
+}
+
+template <int dim>
+void ExplicitSolver<dim>::compute_forces(const State &state, const Vector &velocity)
+{
+  force = 0.;
+  external_force = 0.;
+  {
+    const auto section = run_time->enter("elasticity");
+    forces->elasticity->update(state);
+    forces->elasticity->add_force(force);
+  }
+  compute_contact_forces(state, velocity);
+  compute_load_forces(state);
+  discretization->collect(force);
+  if (!has_external_forces)
+    return;
+  discretization->collect(external_force);
+  force += external_force;
+  external = sum_over_nodes(*discretization, state.displacement, external_force);
+}
+
+template <int dim>
+void ExplicitSolver<dim>::compute_contact_forces(const State &state, const Vector &velocity)
+{
+  if (forces->contacts.empty())
+    return;
+  const auto section = run_time->enter("contact");
+  for (const auto &contact : forces->contacts)
+  {
+    contact->update(state);
+    contact->add_force(contact->is_external ? external_force : force);
+  }
+  damping_force = 0.;
+  for (const auto &contact : forces->damped_contacts)
+  {
+    one_damping_force = 0.;
+    contact->add_damping_force(velocity, one_damping_force);
+    damping_force += one_damping_force;
+    (contact->is_external ? external_force : force) += one_damping_force;
+  }
+  if (!forces->damped_contacts.empty())
+    discretization->collect(damping_force);
+}
+
+template <int dim>
+void ExplicitSolver<dim>::compute_load_forces(const State &state)
+{
+  load_force = 0.;
+  for (const auto &load : forces->loads)
+  {
+    load->update(state);
+    load->add_force(load_force);
+  }
+  external_force += load_force;
+}
+
+template <int dim>
+void ExplicitSolver<dim>::step(double time_step, State &state)
+{
+  old_force.swap(force);
+  old_load_force.swap(load_force);
+  old_damping_force.swap(damping_force);
+  std::swap(old_external, external);
+  old_displacement = state.displacement;
+  old_velocity = state.velocity;
+
+  const unsigned int n = mass.locally_owned_size();
+  for (unsigned int i = 0; i < n; ++i)
+    if (mass.local_element(i) > 0.)
+      state.velocity.local_element(i) += 0.5 * time_step / mass.local_element(i) * old_force.local_element(i);
+  state.displacement.add(time_step, state.velocity);
+  state.time += time_step;
+  supports->impose(state.time, state.displacement);
+  for (const unsigned int dof : supports->owned_dofs())
+    state.velocity.local_element(dof) =
+      (state.displacement.local_element(dof) - old_displacement.local_element(dof)) / time_step;
+  discretization->distribute(state.displacement);
+  discretization->distribute(state.velocity);
+
+  for (const auto &contact : forces->contacts)
+  {
+    const auto section = run_time->enter("contact search");
+    energy_ledger.contact_renewals += contact->renew(state);
+  }
+  compute_forces(state, state.velocity);
+  half_velocity_of_supports.resize(supports->owned_dofs().size());
+  for (unsigned int i = 0; i < half_velocity_of_supports.size(); ++i)
+    half_velocity_of_supports[i] = state.velocity.local_element(supports->owned_dofs()[i]);
+  for (unsigned int i = 0; i < n; ++i)
+    if (mass.local_element(i) > 0.)
+      state.velocity.local_element(i) += 0.5 * time_step / mass.local_element(i) * force.local_element(i);
+  for (unsigned int i = 0; i < half_velocity_of_supports.size(); ++i)
+    state.velocity.local_element(supports->owned_dofs()[i]) = half_velocity_of_supports[i];
+  discretization->distribute(state.velocity);
+  book_step(state, time_step);
+}
+
+template <int dim>
+void ExplicitSolver<dim>::book_step(const State &state, double time_step)
+{
+  increment = state.displacement;
+  increment -= old_displacement;
+  if (!forces->loads.empty())
+    energy_ledger.work_of_loads += 0.5 * (old_load_force * increment + load_force * increment);
+  if (!forces->damped_contacts.empty())
+    energy_ledger.dissipated -= 0.5 * (old_damping_force * increment + damping_force * increment);
+  if (has_external_forces)
+    for (unsigned int d = 0; d < 3; ++d)
+    {
+      momentum_ledger.linear_impulse[d] += 0.5 * time_step * (old_external.vector[d] + external.vector[d]);
+      momentum_ledger.angular_impulse[d] += 0.5 * time_step * (old_external.moment[d] + external.moment[d]);
+    }
+  if (!supports->entries().empty())
+    book_supports(state, time_step);
+}
+
+template <int dim>
+void ExplicitSolver<dim>::book_supports(const State &state, double time_step)
+{
+  // What the momentum and kinetic energy of supported nodes changed by beyond the other forces' share came
+  // from the supports.
+  double work = 0.;
+  Vector impulse = discretization->make_vector(), other_impulse = discretization->make_vector();
+  for (const unsigned int i : supports->owned_dofs())
+  {
+    const double m = mass.local_element(i), v = state.velocity.local_element(i), v_old = old_velocity.local_element(i);
+    work += 0.5 * m * (v * v - v_old * v_old) -
+            0.5 * (old_force.local_element(i) + force.local_element(i)) * increment.local_element(i);
+  }
+  // A support that moves its node along turns the momentum of the node's free components with it.
+  for (const unsigned int i : dofs_of_supported_nodes)
+  {
+    const double m = mass.local_element(i), v = state.velocity.local_element(i), v_old = old_velocity.local_element(i);
+    impulse.local_element(i) = m * v - 0.5 * time_step * force.local_element(i);
+    other_impulse.local_element(i) = -m * v_old - 0.5 * time_step * old_force.local_element(i);
+  }
+  energy_ledger.work_of_supports += dealii::Utilities::MPI::sum(work, discretization->communicator());
+  const VectorAndMoment now = sum_over_nodes(*discretization, state.displacement, impulse);
+  const VectorAndMoment before = sum_over_nodes(*discretization, old_displacement, other_impulse);
+  for (unsigned int d = 0; d < 3; ++d)
+  {
+    momentum_ledger.linear_impulse[d] += now.vector[d] + before.vector[d];
+    momentum_ledger.angular_impulse[d] += now.moment[d] + before.moment[d];
+  }
+}
+
+template <int dim>
+void ExplicitSolver<dim>::take_stock(const State &state)
+{
+  double twice_kinetic = 0.;
+  for (unsigned int i = 0; i < mass.locally_owned_size(); ++i)
+    twice_kinetic += mass.local_element(i) * state.velocity.local_element(i) * state.velocity.local_element(i);
+  energy_ledger.kinetic = 0.5 * dealii::Utilities::MPI::sum(twice_kinetic, discretization->communicator());
+  energy_ledger.elastic = forces->elasticity->energy();
+  energy_ledger.contact = 0.;
+  for (const auto &contact : forces->contacts)
+    energy_ledger.contact += contact->energy();
+  energy_ledger.note_scale();
+
+  const VectorAndMoment momentum = sum_over_nodes(*discretization, state.displacement, state.velocity, &mass);
+  momentum_ledger.linear = momentum.vector;
+  momentum_ledger.angular = momentum.moment;
+  momentum_ledger.linear_scale = std::max(momentum_ledger.linear_scale, momentum.vector_scale);
+  momentum_ledger.angular_scale = std::max(momentum_ledger.angular_scale, momentum.moment_scale);
+}
+
+template class ExplicitSolver<2>;
+template class ExplicitSolver<3>;
+} // namespace signorini

@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "signorini/solvers/linear_solver.h"
+
+#include "signorini/base/exceptions.h"
+
+#include <Epetra_CrsMatrix.h>
+#include <petscksp.h>
+
+#include <vector>
+
+namespace signorini
+{
+namespace
+{
+/// A PETSc object, destroyed at the end of its scope (collective).
+template <typename Object, PetscErrorCode (*destroy)(Object *)>
+struct Owned
+{
+  Object object = nullptr;
+  Owned() = default;
+  Owned(const Owned &) = delete;
+  Owned &operator=(const Owned &) = delete;
+  ~Owned() { destroy(&object); }
+  operator Object() const { return object; }
+  Object *operator&() { return &object; }
+};
+
+using OwnedMatrix = Owned<Mat, MatDestroy>;
+using OwnedVector = Owned<Vec, VecDestroy>;
+using OwnedSolver = Owned<KSP, KSPDestroy>;
+
+/// The same matrix in PETSc's storage, on the same rows.
+void copy(const dealii::TrilinosWrappers::SparseMatrix &matrix, Mat *copied)
+{
+  const Epetra_CrsMatrix &epetra = matrix.trilinos_matrix();
+  std::vector<PetscInt> row_starts{0}, columns;
+  std::vector<PetscScalar> values;
+  for (int row = 0; row < epetra.NumMyRows(); ++row)
+  {
+    int n_entries = 0, *local_columns = nullptr;
+    double *row_values = nullptr;
+    epetra.ExtractMyRowView(row, n_entries, row_values, local_columns);
+    for (int i = 0; i < n_entries; ++i)
+      columns.push_back(epetra.GCID(local_columns[i]));
+    values.insert(values.end(), row_values, row_values + n_entries);
+    row_starts.push_back(static_cast<PetscInt>(columns.size()));
+  }
+  const auto n = static_cast<PetscInt>(matrix.m());
+  MatCreateMPIAIJWithArrays(matrix.get_mpi_communicator(), epetra.NumMyRows(), epetra.NumMyRows(), n, n,
+                            row_starts.data(), columns.data(), values.data(), copied);
+  MatSetOption(*copied, MAT_SPD, PETSC_TRUE);
+}
+
+/// Solves with a PETSc solver that `configure(solver)` has set up. Returns whether it succeeded.
+template <typename Configure>
+bool solve_in_petsc(const dealii::TrilinosWrappers::SparseMatrix &matrix,
+                    const dealii::TrilinosWrappers::MPI::Vector &right_hand_side,
+                    dealii::TrilinosWrappers::MPI::Vector &solution, PetscInt &n_iterations,
+                    const Configure &configure)
+{
+  OwnedMatrix system;
+  copy(matrix, &system);
+  OwnedVector x, b;
+  MatCreateVecs(system, &x, &b);
+  PetscScalar *entries = nullptr;
+  VecGetArray(b, &entries);
+  std::copy(right_hand_side.begin(), right_hand_side.end(), entries);
+  VecRestoreArray(b, &entries);
+
+  OwnedSolver solver;
+  KSPCreate(matrix.get_mpi_communicator(), &solver);
+  KSPSetOperators(solver, system, system);
+  configure(static_cast<KSP>(solver));
+  const bool is_run = KSPSolve(solver, b, x) == 0;
+  KSPConvergedReason reason = KSP_DIVERGED_NULL;
+  KSPGetConvergedReason(solver, &reason);
+  KSPGetIterationNumber(solver, &n_iterations);
+  VecGetArray(x, &entries);
+  std::copy(entries, entries + (solution.end() - solution.begin()), solution.begin());
+  VecRestoreArray(x, &entries);
+  return is_run && reason > 0;
+}
+
+class DirectSolver : public LinearSolver
+{
+public:
+  unsigned int solve(const dealii::TrilinosWrappers::SparseMatrix &matrix,
+                     const dealii::TrilinosWrappers::MPI::Vector &right_hand_side,
+                     dealii::TrilinosWrappers::MPI::Vector &solution) override
+  {
+    PetscInt n_iterations = 0;
+    if (!solve_in_petsc(matrix, right_hand_side, solution, n_iterations,
+                        [](KSP solver)
+                        {
+                          PC factorisation = nullptr;
+                          KSPSetType(solver, KSPPREONLY);
+                          KSPGetPC(solver, &factorisation);
+                          PCSetType(factorisation, PCCHOLESKY);
+                          PCFactorSetMatSolverType(factorisation, MATSOLVERMUMPS);
+                        }))
+      throw NumericalError("the direct solver could not factorise the tangent: it is singular");
+    return 1;
+  }
+  std::string name() const override { return "direct (MUMPS)"; }
+};
+
+class AmgSolver : public LinearSolver
+{
+public:
+  AmgSolver(unsigned int n_displacement_components, double tolerance)
+    : n_components(n_displacement_components)
+    , relative_tolerance(tolerance)
+  {}
+
+  unsigned int solve(const dealii::TrilinosWrappers::SparseMatrix &matrix,
+                     const dealii::TrilinosWrappers::MPI::Vector &right_hand_side,
+                     dealii::TrilinosWrappers::MPI::Vector &solution) override
+  {
+    PetscInt n_iterations = 0;
+    if (!solve_in_petsc(matrix, right_hand_side, solution, n_iterations,
+                        [this](KSP solver)
+                        {
+                          PC multigrid = nullptr;
+                          KSPSetType(solver, KSPCG);
+                          KSPSetNormType(solver, KSP_NORM_UNPRECONDITIONED);
+                          KSPSetTolerances(solver, relative_tolerance, 0., PETSC_DEFAULT, 2000);
+                          KSPGetPC(solver, &multigrid);
+                          PCSetType(multigrid, PCHYPRE);
+                          PCHYPRESetType(multigrid, "boomeramg");
+                          PetscOptionsSetValue(nullptr, "-pc_hypre_boomeramg_strong_threshold",
+                                               n_components == 2 ? "0.25" : "0.5");
+                          PetscOptionsSetValue(nullptr, "-pc_hypre_boomeramg_relax_type_all",
+                                               "symmetric-SOR/Jacobi");
+                          PCSetFromOptions(multigrid);
+                        }))
+      throw NumericalError("conjugate gradients did not reach their tolerance in " + std::to_string(n_iterations) +
+                           " iterations");
+    return static_cast<unsigned int>(n_iterations);
+  }
+  std::string name() const override { return "conjugate gradients with BoomerAMG"; }
+
+private:
+  unsigned int n_components;
+  double relative_tolerance;
+};
+} // namespace
+
+std::unique_ptr<LinearSolver> make_direct_solver()
+{
+  return std::make_unique<DirectSolver>();
+}
+
+std::unique_ptr<LinearSolver> make_amg_solver(unsigned int n_components, double relative_tolerance)
+{
+  return std::make_unique<AmgSolver>(n_components, relative_tolerance);
+}
+} // namespace signorini

@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include "signorini/discretization/contact_surface.h"
+
+#include <Eigen/Geometry>
+
+#include <map>
+#include <random>
+
+namespace signorini::test
+{
+template <int dim>
+using Positions = std::vector<SpatialVector<dim>>;
+
+/// A box of n × n (× n) elements and its material, as seen from outside.
+template <int dim>
+struct BoxBody
+{
+  SpatialVector<dim> corner = SpatialVector<dim>::Zero();
+  SpatialVector<dim> size = SpatialVector<dim>::Ones();
+  unsigned int n_faces = 2; ///< along every edge
+  unsigned int degree = 1;
+  double youngs_modulus = 1e3;
+  double density = 10.;
+};
+
+/// Grows a surface box by box; nodes are shared by the faces of one box.
+template <int dim>
+class BoxSurfaceBuilder
+{
+public:
+  ContactSurface<dim> surface;
+
+  void add(const BoxBody<dim> &box)
+  {
+    nodes.clear();
+    for (unsigned int axis = 0; axis < dim; ++axis)
+      for (unsigned int side = 0; side < 2; ++side)
+        add_side(box, axis, side);
+    ++surface.n_bodies;
+  }
+
+private:
+  using Lattice = std::array<unsigned int, dim>;
+  std::map<Lattice, unsigned int> nodes;
+
+  unsigned int node_at(const BoxBody<dim> &box, const Lattice &lattice)
+  {
+    const auto [entry, is_new] = nodes.emplace(lattice, surface.n_nodes());
+    if (is_new)
+    {
+      SpatialVector<dim> x = box.corner;
+      for (unsigned int i = 0; i < dim; ++i)
+        x[i] += box.size[i] * lattice[i] / (box.n_faces * box.degree);
+      surface.reference_positions.push_back(x);
+    }
+    return entry->second;
+  }
+
+  void add_side(const BoxBody<dim> &box, unsigned int axis, unsigned int side)
+  {
+    for (unsigned int j = 0; j < (dim == 3 ? box.n_faces : 1); ++j)
+      for (unsigned int i = 0; i < box.n_faces; ++i)
+        add_facet(box, axis, side, i, j);
+  }
+
+  void add_facet(const BoxBody<dim> &box, unsigned int axis, unsigned int side, unsigned int column,
+                 unsigned int row)
+  {
+    const unsigned int p = box.degree;
+    Facet<dim> facet;
+    facet.degree = p;
+    facet.body = surface.n_bodies;
+    facet.layer_thickness = box.size[axis] / box.n_faces;
+    facet.youngs_modulus = box.youngs_modulus;
+    facet.density = box.density;
+    const bool reversed = dim == 2 ? (axis == 0) != (side == 1) : side == 0;
+    for (unsigned int a = 0; a < facet.n_nodes(); ++a)
+    {
+      unsigned int i = a % (p + 1);
+      unsigned int j = a / (p + 1);
+      if (reversed)
+      {
+        if (dim == 2)
+          i = p - i;
+        else
+          std::swap(i, j);
+      }
+      Lattice lattice;
+      lattice[axis] = side * box.n_faces * p;
+      lattice[(axis + 1) % dim] = column * p + i;
+      if (dim == 3)
+        lattice[(axis + 2) % dim] = row * p + j;
+      facet.nodes[a] = node_at(box, lattice);
+    }
+    surface.facets.push_back(facet);
+  }
+};
+
+/// Random vectors, the same ones at every run.
+template <int dim>
+class RandomVectors
+{
+public:
+  explicit RandomVectors(unsigned int seed) : engine(seed) {}
+
+  double number(double low, double high) { return std::uniform_real_distribution<double>(low, high)(engine); }
+
+  SpatialVector<dim> vector(double size)
+  {
+    SpatialVector<dim> v;
+    for (unsigned int i = 0; i < dim; ++i)
+      v[i] = number(-size, size);
+    return v;
+  }
+
+  Positions<dim> field(std::size_t n, double size)
+  {
+    Positions<dim> v(n);
+    for (auto &entry : v)
+      entry = vector(size);
+    return v;
+  }
+
+  SpatialTensor<dim> rotation()
+  {
+    if constexpr (dim == 2)
+      return Eigen::Rotation2Dd(number(-3., 3.)).toRotationMatrix();
+    else
+      return Eigen::AngleAxisd(number(-3., 3.), vector(1.).normalized()).toRotationMatrix();
+  }
+
+private:
+  std::mt19937 engine;
+};
+
+/// `x` + `factor` `direction`
+template <int dim>
+Positions<dim> shifted(const Positions<dim> &x, const Positions<dim> &direction, double factor)
+{
+  Positions<dim> result(x);
+  for (std::size_t i = 0; i < x.size(); ++i)
+    result[i] += factor * direction[i];
+  return result;
+}
+} // namespace signorini::test

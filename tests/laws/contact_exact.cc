@@ -1,0 +1,221 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "potential_scene.h"
+
+#include <gtest/gtest.h>
+
+#include <numeric>
+
+using namespace signorini;
+using namespace signorini::contact;
+using namespace signorini::test;
+
+namespace
+{
+template <typename Dimension>
+class ContactExact : public testing::Test
+{
+protected:
+  static constexpr int dimension = Dimension::value;
+  static constexpr double overlap = .001; ///< below the distance of any point from a rim
+  BoxBody<dimension> lower, upper;
+  PotentialSettings settings;
+  ContactSurface<dimension> surface;
+
+  /// Two flat boxes of unlike material, the upper one of the given width.
+  void press(double width, unsigned int n_lower, unsigned int n_upper)
+  {
+    lower.n_faces = n_lower;
+    upper.n_faces = n_upper;
+    upper.size *= width;
+    upper.corner.setConstant(.5 * (1. - width));
+    upper.corner[dimension - 1] = 1. - overlap;
+    upper.youngs_modulus = 4e3;
+    upper.density = 3.;
+    BoxSurfaceBuilder<dimension> builder;
+    builder.add(lower);
+    builder.add(upper);
+    surface = builder.surface;
+  }
+
+  double stiffness() const
+  {
+    const double compliance = lower.size[0] / lower.n_faces / lower.youngs_modulus +
+                              upper.size[0] / upper.n_faces / upper.youngs_modulus;
+    return settings.penalty_factor / compliance;
+  }
+
+  ContactPotential<dimension> evaluate() const
+  {
+    ContactPotential<dimension> potential(surface, {}, settings);
+    potential.update(surface.reference_positions);
+    potential.evaluate(surface.reference_positions);
+    return potential;
+  }
+
+  Positions<dimension> velocities(double up) const
+  {
+    Positions<dimension> v(surface.n_nodes(), SpatialVector<dimension>::Zero());
+    for (const auto &facet : surface.facets)
+      for (unsigned int a = 0; a < facet.n_nodes(); ++a)
+        v[facet.nodes[a]][dimension - 1] = facet.body == 1 ? up : 0.;
+    return v;
+  }
+};
+using Dimensions = testing::Types<std::integral_constant<int, 2>, std::integral_constant<int, 3>>;
+TYPED_TEST_SUITE(ContactExact, Dimensions);
+
+template <int dim>
+void expect_uniform_pressure(const ContactPotential<dim> &potential, double pressure, double area)
+{
+  const auto measures = potential.measure();
+  EXPECT_NEAR(measures.max_pressure, pressure, 1e-11 * pressure);
+  EXPECT_NEAR(measures.area, area, 1e-12);
+  EXPECT_NEAR(measures.resultants[1][dim - 1], pressure * area, 1e-11 * pressure * area);
+  EXPECT_NEAR(measures.resultants[0][dim - 1], -pressure * area, 1e-11 * pressure * area);
+  for (const auto &sample : potential.samples())
+    if (sample.depth > 0.)
+    {
+      EXPECT_NEAR(sample.pressure, pressure, 1e-11 * pressure);
+    }
+}
+
+TYPED_TEST(ContactExact, EqualBoxesWithFaceQuadrature)
+{
+  for (unsigned int degree : {1u, 2u})
+  {
+    this->lower.degree = this->upper.degree = degree;
+    this->upper = this->lower;
+    this->press(1., 2, 3);
+    const auto potential = this->evaluate();
+    expect_uniform_pressure(potential, this->stiffness() * this->overlap, 1.);
+    EXPECT_NEAR(potential.energy(), .5 * this->stiffness() * this->overlap * this->overlap, 1e-12);
+    EXPECT_NEAR(potential.measure().max_penetration_over_thickness, this->overlap * 3., 1e-12);
+    EXPECT_DOUBLE_EQ(potential.measure().max_stiffness, this->stiffness());
+  }
+}
+
+TYPED_TEST(ContactExact, UnlikeBoxesWithFaceSegments)
+{
+  constexpr int dim = TypeParam::value;
+  this->settings.integration = Integration::face_segments;
+  this->press(.5, 3, 2);
+  expect_uniform_pressure(this->evaluate(), this->stiffness() * this->overlap, dim == 2 ? .5 : .25);
+}
+
+TYPED_TEST(ContactExact, BoxOnPlane)
+{
+  constexpr int dim = TypeParam::value;
+  BoxSurfaceBuilder<dim> builder;
+  builder.add(this->lower);
+  this->surface = builder.surface;
+  const SpatialVector<dim> up = SpatialVector<dim>::Unit(dim - 1);
+  const auto plane = std::make_shared<RigidPlane<dim>>("floor", .02 * up, up);
+  for (bool excluded : {false, true})
+  {
+    if (excluded)
+      this->settings.excluded_obstacle_pairs = {{0, 0}};
+    ContactPotential<dim> potential(this->surface, {plane}, this->settings);
+    potential.update(this->surface.reference_positions);
+    potential.evaluate(this->surface.reference_positions);
+    const double stiffness = 10. * 1e3 / .5; // α E/h
+    EXPECT_NEAR(potential.measure().resultants[0][dim - 1], excluded ? 0. : stiffness * .02, 1e-9);
+  }
+}
+
+TYPED_TEST(ContactExact, ExcludedBodiesPassThroughEachOther)
+{
+  this->press(1., 2, 2);
+  this->settings.excluded_body_pairs = {{1, 0}};
+  EXPECT_EQ(this->evaluate().measure().n_pairs, 0u);
+}
+
+/// σ_c = 2ξ√(k_A m_A) ḋ, and never less than −k_A d.
+TYPED_TEST(ContactExact, DampingPressure)
+{
+  constexpr int dim = TypeParam::value;
+  this->settings.damping_ratio = .2;
+  this->press(1., 2, 3);
+  const auto potential = this->evaluate();
+  const double m_0 = 10. * .5 / 2., m_1 = 3. / 3. / 2.;
+  const double damping = .4 * std::sqrt(this->stiffness() * m_0 * m_1 / (m_0 + m_1));
+  for (double speed : {.001, -.001, -100.})
+  {
+    Positions<dim> forces(this->surface.n_nodes(), SpatialVector<dim>::Zero());
+    const double power = potential.add_damping_forces(this->velocities(-speed), forces);
+    const double pressure = std::max(damping * speed, -this->stiffness() * this->overlap);
+    EXPECT_NEAR(power, pressure * speed, 1e-11 * std::abs(pressure * speed));
+    potential.add_forces(forces);
+    if (speed == -100.)
+    {
+      EXPECT_LT(norm<dim>(forces), 1e-12) << "surfaces that part must not pull";
+    }
+  }
+}
+
+/// The middle Gauss point of the upper face stands on the seam of the lower faces, which are in one plane.
+TYPED_TEST(ContactExact, FlatSurfaceHasNoTangentialStiffness)
+{
+  constexpr int dim = TypeParam::value;
+  this->press(1., 2, 1);
+  const auto tangent = compute_tangent(this->evaluate(), this->surface.n_nodes());
+  Eigen::VectorXd sideways = Eigen::VectorXd::Zero(tangent.rows());
+  const auto up = this->velocities(1.);
+  for (std::size_t i = 0; i < up.size(); ++i)
+    sideways[dim * i] = up[i][dim - 1];
+  EXPECT_GT(tangent.norm(), 0.);
+  // Displaced points turn with the target's normal only to second order in depth.
+  EXPECT_LT(sideways.dot(tangent * sideways), 1e-10 * tangent.norm());
+}
+
+/// What renewing the pairs does to the stored energy is told, and it is nothing while the stiffness stays the
+/// same.
+TYPED_TEST(ContactExact, RenewalReturnsTheJumpOfEnergy)
+{
+  constexpr int dim = TypeParam::value;
+  this->press(.5, 4, 2);
+  for (bool uniform : {true, false})
+  {
+    if (!uniform)
+      for (auto &facet : this->surface.facets)
+        if (facet.body == 0 && this->surface.reference_positions[facet.nodes[0]][0] > .6)
+          facet.youngs_modulus *= 5.;
+    ContactPotential<dim> potential(this->surface, {}, this->settings);
+    EXPECT_EQ(potential.update(this->surface.reference_positions), 0.);
+    EXPECT_FALSE(potential.is_stale(this->surface.reference_positions));
+
+    auto moved = this->surface.reference_positions;
+    const auto up = this->velocities(.23);
+    for (std::size_t i = 0; i < moved.size(); ++i)
+      moved[i][0] += up[i][dim - 1];
+    EXPECT_TRUE(potential.is_stale(moved));
+    potential.evaluate(moved);
+    const double before = potential.energy();
+    const double jump = potential.update(moved);
+    potential.evaluate(moved);
+    EXPECT_GT(before, 0.);
+    EXPECT_DOUBLE_EQ(potential.energy() - before, jump);
+    if (uniform)
+      EXPECT_EQ(jump, 0.);
+    else
+      EXPECT_GT(jump, .01 * before);
+    EXPECT_EQ(potential.update(moved), 0.);
+  }
+}
+
+TYPED_TEST(ContactExact, RejectsSettingsWithoutSense)
+{
+  constexpr int dim = TypeParam::value;
+  this->press(1., 1, 1);
+  const auto expect_rejected = [this](auto change)
+  {
+    PotentialSettings changed;
+    change(changed);
+    EXPECT_THROW(ContactPotential<dim>(this->surface, {}, changed), std::invalid_argument);
+  };
+  expect_rejected([](auto &s) { s.penalty_factor = 0.; });
+  expect_rejected([](auto &s) { s.skin_over_thickness = 0.; });
+  expect_rejected([](auto &s) { s.n_quadrature_points = 0; });
+  expect_rejected([](auto &s) { s.damping_ratio = -1.; });
+  expect_rejected([this](auto &) { this->surface.facets[0].layer_thickness = 0.; });
+}
+} // namespace

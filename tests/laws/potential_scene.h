@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include "signorini/contact/potential/contact_potential.h"
+
+#include "box_surface.h"
+
+#include <Eigen/Geometry>
+
+#include <ostream>
+
+namespace signorini::test
+{
+enum class Target
+{
+  body,
+  plane,
+  sphere
+};
+
+struct Case
+{
+  int dim;
+  unsigned int degree;
+  Target target;
+  contact::Integration integration;
+};
+
+inline std::ostream &operator<<(std::ostream &out, const Case &c)
+{
+  const std::array<const char *, 3> targets{"Body", "Plane", "Sphere"};
+  return out << "Dim" << c.dim << "Degree" << c.degree << targets[static_cast<std::size_t>(c.target)]
+             << (c.integration == contact::Integration::face_quadrature ? "Quadrature" : "Segments");
+}
+
+/// A bent box pressed a little into another bent box of other mesh and material, or into an obstacle.
+template <int dim>
+struct PotentialScene
+{
+  static constexpr double overlap = .06;
+
+  ContactSurface<dim> surface;
+  Positions<dim> positions;
+  typename contact::ContactPotential<dim>::Obstacles obstacles;
+  contact::PotentialSettings settings;
+  unsigned int moving_body;
+
+  explicit PotentialScene(const Case &c, unsigned int n_faces = 2, double bend = .02) : moving_body(0)
+  {
+    BoxSurfaceBuilder<dim> builder;
+    BoxBody<dim> lower;
+    lower.degree = c.degree;
+    lower.n_faces = n_faces;
+    if (c.target == Target::body)
+    {
+      builder.add(lower);
+      moving_body = 1;
+    }
+    BoxBody<dim> upper = lower;
+    upper.size *= .75;
+    upper.corner = SpatialVector<dim>::Constant(.1371);
+    upper.corner[dim - 1] = 1. - overlap;
+    upper.youngs_modulus = 3e3;
+    upper.density = 4.;
+    builder.add(upper);
+    surface = builder.surface;
+    RandomVectors<dim> random(5);
+    positions = shifted<dim>(surface.reference_positions, random.field(surface.n_nodes(), bend), 1.);
+    move(SpatialTensor<dim>::Identity(), SpatialVector<dim>::Zero(), c.target);
+    settings.integration = c.integration;
+    settings.damping_ratio = .3;
+    if (c.integration == contact::Integration::face_segments)
+      settings.n_quadrature_points = 2; // there are many segments
+  }
+
+  /// Turns and shifts all there is.
+  void move(const SpatialTensor<dim> &rotation, const SpatialVector<dim> &shift, Target target)
+  {
+    for (auto &x : positions)
+      x = rotation * x + shift;
+    SpatialVector<dim> up = SpatialVector<dim>::Unit(dim - 1);
+    up[0] = .1;
+    const SpatialVector<dim> middle = SpatialVector<dim>::Constant(.5);
+    SpatialVector<dim> point = middle;
+    point[dim - 1] = 1.;
+    obstacles.clear();
+    if (target == Target::plane)
+      obstacles.push_back(
+          std::make_shared<RigidPlane<dim>>("floor", rotation * point + shift, rotation * up));
+    else if (target == Target::sphere)
+      obstacles.push_back(std::make_shared<RigidSphere<dim>>("ball", rotation * middle + shift, .53));
+  }
+
+  contact::ContactPotential<dim> make_potential() const { return {surface, obstacles, settings}; }
+
+  /// Moves every node of the moving body by `shift`.
+  Positions<dim> moved(const SpatialVector<dim> &shift) const
+  {
+    Positions<dim> x(positions);
+    std::vector<bool> is_moved(x.size(), false);
+    for (const auto &facet : surface.facets)
+      if (facet.body == moving_body)
+        for (unsigned int a = 0; a < facet.n_nodes(); ++a)
+          is_moved[facet.nodes[a]] = true;
+    for (std::size_t i = 0; i < x.size(); ++i)
+      if (is_moved[i])
+        x[i] += shift;
+    return x;
+  }
+
+  Positions<dim> zeros() const { return Positions<dim>(positions.size(), SpatialVector<dim>::Zero()); }
+};
+
+template <int dim>
+double dot(const Positions<dim> &u, const Positions<dim> &v)
+{
+  double sum = 0.;
+  for (std::size_t i = 0; i < u.size(); ++i)
+    sum += u[i].dot(v[i]);
+  return sum;
+}
+
+template <int dim>
+double norm(const Positions<dim> &u)
+{
+  return std::sqrt(dot<dim>(u, u));
+}
+
+template <int dim>
+Positions<dim> compute_forces(const contact::ContactPotential<dim> &potential, std::size_t n_nodes)
+{
+  Positions<dim> forces(n_nodes, SpatialVector<dim>::Zero());
+  potential.add_forces(forces);
+  return forces;
+}
+
+template <int dim>
+Eigen::MatrixXd compute_tangent(const contact::ContactPotential<dim> &potential, std::size_t n_nodes)
+{
+  const auto size = static_cast<Eigen::Index>(dim * n_nodes);
+  Eigen::MatrixXd tangent = Eigen::MatrixXd::Zero(size, size);
+  potential.for_each_tangent(
+      [&](const std::vector<unsigned int> &nodes, const Eigen::MatrixXd &block)
+      {
+        for (std::size_t a = 0; a < nodes.size(); ++a)
+          for (std::size_t b = 0; b < nodes.size(); ++b)
+            tangent.template block<dim, dim>(dim * nodes[a], dim * nodes[b]) +=
+                block.template block<dim, dim>(dim * a, dim * b);
+      });
+  return tangent;
+}
+
+/// All components in one column, node by node.
+template <int dim>
+Eigen::VectorXd flatten(const Positions<dim> &u)
+{
+  return Eigen::Map<const Eigen::VectorXd>(u.front().data(), static_cast<Eigen::Index>(dim * u.size()));
+}
+} // namespace signorini::test

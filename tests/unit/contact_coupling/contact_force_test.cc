@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "contact_bodies.h"
+
+#include "signorini/physics/momentum.h"
+
+using namespace signorini;
+using namespace signorini::test;
+using contact::Integration;
+
+namespace
+{
+template <typename T>
+class ContactForces : public testing::Test
+{};
+TYPED_TEST_SUITE(ContactForces, AllCases);
+
+TYPED_TEST(ContactForces, ForceIsEnergyGradient)
+{
+  constexpr int dim = TypeParam::dim;
+  for (const Integration integration : {Integration::face_quadrature, Integration::face_segments})
+  {
+    BuiltScene<dim> built(make_overlapping_bodies<dim>(), TypeParam::degree);
+    ASSERT_FALSE(built.discretization.hanging_dofs.empty());
+    const auto contact = built.add_contact(make_settings(integration));
+    const Vector u = built.random_vector(.01);
+    built.state.displacement = u;
+    contact->renew(built.state);
+    ASSERT_GT(built.energy_of(*contact, u), 0.);
+    expect_force_is_energy_gradient(built, *contact, u, 1e-6, 1e-6);
+  }
+}
+
+TYPED_TEST(ContactForces, TangentIsForceGradient)
+{
+  constexpr int dim = TypeParam::dim;
+  for (const Integration integration : {Integration::face_quadrature, Integration::face_segments})
+  {
+    BuiltScene<dim> built(make_overlapping_bodies<dim>(), TypeParam::degree);
+    const auto contact = built.add_contact(make_settings(integration));
+    const Vector u = built.random_vector(.01);
+    built.state.displacement = u;
+    contact->renew(built.state);
+    expect_tangent_is_force_gradient(built, *contact, u, 1e-7, 1e-5);
+  }
+}
+
+TYPED_TEST(ContactForces, ObstacleForceAndTangentAreDerivatives)
+{
+  constexpr int dim = TypeParam::dim;
+  BodyParameters body = make_graded_cube();
+  BuiltScene<dim> built({body}, TypeParam::degree,
+                        [](Parameters &p)
+                        {
+                          ObstacleParameters sphere = make_floor<dim>(-1.9);
+                          sphere.shape = ObstacleParameters::Shape::sphere;
+                          sphere.radius = 2.;
+                          p.obstacles = {sphere};
+                        });
+  const auto contact = built.add_contact(make_settings(Integration::face_quadrature));
+  const Vector u = built.random_vector(.01);
+  built.state.displacement = u;
+  contact->renew(built.state);
+  ASSERT_GT(built.energy_of(*contact, u), 0.);
+  EXPECT_TRUE(contact->is_external);
+  expect_force_is_energy_gradient(built, *contact, u);
+  expect_tangent_is_force_gradient(built, *contact, u, 1e-7, 1e-5);
+}
+
+TYPED_TEST(ContactForces, ForcesOfBodiesBalance)
+{
+  constexpr int dim = TypeParam::dim;
+  for (const Integration integration : {Integration::face_quadrature, Integration::face_segments})
+  {
+    BuiltScene<dim> built(make_overlapping_bodies<dim>(), TypeParam::degree);
+    contact::PotentialSettings settings = make_settings(integration);
+    settings.damping_ratio = .3;
+    const auto contact = built.add_contact(settings);
+    const Vector u = built.random_vector(.01);
+    built.state.displacement = u;
+    contact->renew(built.state);
+    Vector force = built.force_of(*contact, u), damping = built.discretization.make_vector();
+    const Vector velocity = built.random_vector(1., 7);
+    const double power = contact->add_damping_force(velocity, damping);
+    built.discretization.collect(damping);
+    EXPECT_GT(power, 0.);
+    EXPECT_NEAR(damping * velocity, -power, 1e-12 * power);
+    for (const Vector *nodal : {&force, &damping})
+    {
+      const VectorAndMoment sums = sum_over_nodes(built.discretization, u, *nodal);
+      ASSERT_GT(sums.vector_scale, 0.);
+      for (unsigned int d = 0; d < 3; ++d)
+      {
+        EXPECT_LT(std::abs(sums.vector[d]), 1e-13 * sums.vector_scale);
+        EXPECT_LT(std::abs(sums.moment[d]), 1e-12 * sums.moment_scale);
+      }
+    }
+    const auto measures = contact->measure();
+    EXPECT_LT((measures.resultants[0] + measures.resultants[1]).norm(), 1e-13 * measures.resultants[0].norm());
+  }
+}
+
+TYPED_TEST(ContactForces, OverlappingBlocksCarryStiffnessTimesDepth)
+{
+  // Two cells of one size, one exactly over the other: W = ½ k_A d² A with k_A = α/(h_c/E_c + h_t/E_t).
+  constexpr int dim = TypeParam::dim;
+  BodyParameters lower = make_box("lower", {1., 1., 1.}, {1, 1, 1}), upper = lower;
+  upper.material.youngs_modulus = 4000.;
+  upper.placement.shift[dim - 1] = 1. - .01;
+  BuiltScene<dim> built({lower, upper}, TypeParam::degree);
+  const auto contact = built.add_contact(make_settings(Integration::face_segments));
+  contact->renew(built.state);
+  const double stiffness = 10. / (1. / 1000. + 1. / 4000.);
+  EXPECT_NEAR(built.energy_of(*contact, built.discretization.make_vector()), .5 * stiffness * 1e-4, 1e-12);
+  EXPECT_NEAR(contact->measure().resultants[1][dim - 1], stiffness * .01, 1e-10);
+}
+
+TYPED_TEST(ContactForces, NothingActsAtADistance)
+{
+  constexpr int dim = TypeParam::dim;
+  BuiltScene<dim> built(make_overlapping_bodies<dim>(-.01), TypeParam::degree);
+  const auto contact = built.add_contact(make_settings(Integration::face_quadrature));
+  contact->renew(built.state);
+  EXPECT_EQ(built.energy_of(*contact, built.discretization.make_vector()), 0.);
+  EXPECT_EQ(built.force_of(*contact, built.discretization.make_vector()).l2_norm(), 0.);
+}
+} // namespace

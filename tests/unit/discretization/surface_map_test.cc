@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "built_scene.h"
+
+#include "signorini/contact/geometry/facet_shape.h"
+
+#include <deal.II/base/quadrature_lib.h>
+
+using namespace signorini;
+using namespace signorini::test;
+
+namespace
+{
+/// Area and Σ area normals of one body's facets, and whether all normals point away from `centre`.
+template <int dim>
+struct SurfaceSums
+{
+  double area = 0.;
+  SpatialVector<dim> area_normal = SpatialVector<dim>::Zero();
+  bool do_normals_point_out = true;
+
+  SurfaceSums(const ContactSurface<dim> &surface, unsigned int body, const SpatialVector<dim> &centre)
+  {
+    const dealii::QGauss<dim - 1> quadrature(5);
+    for (const Facet<dim> &facet : surface.facets)
+      if (facet.body == body)
+        for (unsigned int q = 0; q < quadrature.size(); ++q)
+        {
+          LocalPoint<dim> xi;
+          for (unsigned int d = 0; d + 1 < dim; ++d)
+            xi[d] = quadrature.point(q)[d];
+          const auto frame =
+            contact::evaluate_facet_frame(contact::gather_nodes(facet, surface.reference_positions), xi);
+          area += quadrature.weight(q) * frame.area_normal.norm();
+          area_normal += quadrature.weight(q) * frame.area_normal;
+          do_normals_point_out = do_normals_point_out && frame.area_normal.dot(frame.position - centre) > 0.;
+        }
+  }
+};
+
+template <typename T>
+class SurfaceMaps : public testing::Test
+{};
+TYPED_TEST_SUITE(SurfaceMaps, AllCases);
+
+TYPED_TEST(SurfaceMaps, GradedTurnedBoxIsClosedAndHasItsArea)
+{
+  constexpr int dim = TypeParam::dim;
+  BodyParameters box = graded(make_box("box", {2., 1.5, 1.}, {3, 2, 2}), {2., 1.5, 1.}, 2);
+  box.placement.rotation_angle = 50.;
+  box.placement.rotation_axis = {1., 1., 0.};
+  BodyParameters other = make_box("other", {1., 1., 1.}, {1, 1, 1});
+  other.placement.shift = {10., 0., 0.};
+  BuiltScene<dim> built({box, other}, TypeParam::degree);
+  SpatialVector<dim> centre = SpatialVector<dim>::Zero();
+  unsigned int n = 0;
+  for (const OwnedNode<dim> &node : built.discretization.owned_nodes)
+    if (node.body == 0)
+    {
+      ++n;
+      for (unsigned int d = 0; d < dim; ++d)
+        centre[d] += node.position[d];
+    }
+  const SurfaceSums<dim> sums(built.map.surface(), 0, centre / n);
+  const double area = dim == 2 ? 2. * (2. + 1.5) : 2. * (2. * 1.5 + 2. + 1.5);
+  EXPECT_NEAR(sums.area, area, 1e-12 * area);
+  EXPECT_LT(sums.area_normal.norm(), 1e-13 * area);
+  EXPECT_TRUE(sums.do_normals_point_out);
+  SpatialVector<dim> other_centre = SpatialVector<dim>::Constant(.5);
+  other_centre[0] += 10.;
+  const SurfaceSums<dim> other_sums(built.map.surface(), 1, other_centre);
+  EXPECT_NEAR(other_sums.area, 2. * dim, 1e-13);
+  EXPECT_TRUE(other_sums.do_normals_point_out);
+}
+
+TYPED_TEST(SurfaceMaps, AreaOfASphereConverges)
+{
+  constexpr int dim = TypeParam::dim;
+  const double exact = dim == 2 ? 2. * M_PI : 4. * M_PI;
+  std::array<double, 2> errors;
+  for (unsigned int level = 0; level < 2; ++level)
+  {
+    BuiltScene<dim> built({make_ball("ball", 1., level + (dim == 2 ? 2 : 1))}, TypeParam::degree);
+    const SurfaceSums<dim> sums(built.map.surface(), 0, SpatialVector<dim>::Zero());
+    errors[level] = std::abs(sums.area - exact) / exact;
+    EXPECT_LT(sums.area_normal.norm(), 1e-13);
+    EXPECT_TRUE(sums.do_normals_point_out);
+  }
+  EXPECT_LT(errors[1], .035);
+  EXPECT_LT(errors[1], errors[0] / (TypeParam::degree == 1 ? 3.5 : 12.));
+}
+
+TYPED_TEST(SurfaceMaps, BallWithHangingNodesOnItsSurfaceIsClosed)
+{
+  constexpr int dim = TypeParam::dim;
+  BuiltScene<dim> built({graded(make_ball("ball", 1., 1), {1., 0., 0.}, 2, .3)}, TypeParam::degree);
+  ASSERT_FALSE(built.discretization.hanging_dofs.empty());
+  const SurfaceSums<dim> sums(built.map.surface(), 0, SpatialVector<dim>::Zero());
+  EXPECT_LT(sums.area_normal.norm(), 1e-13 * sums.area);
+  EXPECT_TRUE(sums.do_normals_point_out);
+}
+
+TYPED_TEST(SurfaceMaps, PartsOfBallsAreClosedAndPointOut)
+{
+  constexpr int dim = TypeParam::dim;
+  for (const auto part : {MeshParameters::Part::half, MeshParameters::Part::orthant})
+  {
+    BodyParameters ball = make_ball("ball", 1., 1);
+    ball.mesh.part = part;
+    BuiltScene<dim> built({ball}, TypeParam::degree);
+    SpatialVector<dim> centre = SpatialVector<dim>::Constant(part == MeshParameters::Part::half ? 0. : .3);
+    centre[dim - 1] = .3;
+    const SurfaceSums<dim> sums(built.map.surface(), 0, centre);
+    EXPECT_LT(sums.area_normal.norm(), 1e-13);
+    EXPECT_TRUE(sums.do_normals_point_out);
+  }
+}
+
+TYPED_TEST(SurfaceMaps, FacetsKnowTheLayerBehindThem)
+{
+  constexpr int dim = TypeParam::dim;
+  BodyParameters box = make_box("box", {2., 1.5, 1.}, {4, 5, 8});
+  box.placement.rotation_angle = 20.;
+  box.placement.scale = 3.;
+  BuiltScene<dim> built({make_box("first", {9., 9., 9.}, {1, 1, 1}), box}, TypeParam::degree,
+                        [](Parameters &p)
+                        {
+                          p.bodies[0].mesh.lower_corner = {8., 8., 8.};
+                          p.bodies[1].material.youngs_modulus = 77.;
+                          p.bodies[1].material.density = 5.;
+                        });
+  const std::array<double, 3> thickness{1.5, .9, .375};
+  std::array<unsigned int, 3> n_found{};
+  for (const Facet<dim> &facet : built.map.surface().facets)
+    if (facet.body == 1)
+    {
+      EXPECT_EQ(facet.degree, TypeParam::degree);
+      EXPECT_EQ(facet.youngs_modulus, 77.);
+      EXPECT_EQ(facet.density, 5.);
+      for (unsigned int d = 0; d < dim; ++d)
+        n_found[d] += std::abs(facet.layer_thickness - thickness[d]) < 1e-12;
+    }
+  const std::array<unsigned int, 3> expected =
+    dim == 2 ? std::array<unsigned int, 3>{10, 8, 0} : std::array<unsigned int, 3>{80, 64, 40};
+  EXPECT_EQ(n_found, expected);
+}
+
+TYPED_TEST(SurfaceMaps, GatherAndAddAreTransposes)
+{
+  constexpr int dim = TypeParam::dim;
+  BuiltScene<dim> built({make_graded_cube()}, TypeParam::degree);
+  const Vector u = built.random_vector(1.);
+  const auto gathered = built.map.gather(u);
+  std::vector<SpatialVector<dim>> nodal(gathered.size());
+  double product = 0.;
+  for (unsigned int node = 0; node < nodal.size(); ++node)
+  {
+    for (unsigned int d = 0; d < dim; ++d)
+      nodal[node][d] = std::sin(1. + 3. * node + d);
+    product += nodal[node].dot(gathered[node]);
+  }
+  Vector forces = built.discretization.make_vector();
+  built.map.add_to_owners(nodal, forces);
+  built.discretization.collect(forces);
+  EXPECT_NEAR(forces * u, product, 1e-12 * nodal.size());
+}
+
+TYPED_TEST(SurfaceMaps, NodesStandWhereTheirDofsDo)
+{
+  constexpr int dim = TypeParam::dim;
+  BuiltScene<dim> built({make_graded_cube(), make_ball("ball", .3, 0)}, TypeParam::degree);
+  Vector positions = built.discretization.make_vector();
+  for (const OwnedNode<dim> &node : built.discretization.owned_nodes)
+    for (unsigned int d = 0; d < dim; ++d)
+      positions.local_element(node.dofs[d]) = node.position[d];
+  const auto gathered = built.map.gather(positions);
+  for (unsigned int node = 0; node < gathered.size(); ++node)
+    EXPECT_LT((gathered[node] - built.map.surface().reference_positions[node]).norm(), 1e-15);
+}
+} // namespace
