@@ -55,9 +55,16 @@ Expression make_expression(const PlacedFormula &formula)
   }
 }
 
-void check_formula(const PlacedFormula &formula, const std::vector<Triple> &points, const double end_time)
+void check_formula(const PlacedFormula &formula, const std::vector<Triple> &points,
+                   const unsigned int dimension, const double end_time)
 {
   const Expression expression = make_expression(formula);
+  if (dimension == 2 && expression.uses("z"))
+    throw InputError(Complaint("the expression uses the variable z, which two dimensions do not have")
+                         .at(formula.where)
+                         .found(formula.name + " = " + formula.formula)
+                         .expected("a formula of x, y, t")
+                         .advise("write y for the vertical coordinate, or set Dimension = 3"));
   for (const double t : {0., end_time})
     for (const Triple &x : points)
       if (const double value = expression.value(x, t); !std::isfinite(value))
@@ -68,12 +75,6 @@ void check_formula(const PlacedFormula &formula, const std::vector<Triple> &poin
                 .found(formula.name + " = " + formula.formula)
                 .expected("finite values wherever it is used")
                 .advise("correct the formula, or restrict it with if(condition, value, other)"));
-}
-
-std::string place_of(const ParameterText &text, const std::string &path, const std::string &key)
-{
-  const ParameterEntry *const entry = text.find(path, key);
-  return entry != nullptr ? entry->where() : text.where(path);
 }
 } // namespace
 
@@ -101,15 +102,15 @@ void check_expressions(const ParameterText &text, const BodyParameters &body, co
       {
         const std::string path = "Body " + body.name + "/Support " + support.boundary;
         const std::string key(1, "xyz"[c]);
-        check_formula({*support.displacement[c], join_path(path, key), place_of(text, path, key)},
-                      placed_points(support.boundary), end_time);
+        check_formula({*support.displacement[c], join_path(path, key), text.where(path, key)},
+                      placed_points(support.boundary), dimension, end_time);
       }
   for (const LoadParameters &load : body.loads)
     for (unsigned int c = 0; c < dimension; ++c)
     {
       const std::string path = "Body " + body.name + "/Load " + load.boundary;
-      check_formula({load.traction[c], path + "/Traction", place_of(text, path, "Traction")},
-                    placed_points(load.boundary), end_time);
+      check_formula({load.traction[c], path + "/Traction", text.where(path, "Traction")},
+                    placed_points(load.boundary), dimension, end_time);
     }
 }
 } // namespace signorini

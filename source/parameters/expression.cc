@@ -109,4 +109,9 @@ double Expression::value(const Triple &x, const double t) const
   parser->set_time(t);
   return parser->value(dealii::Point<3>(x[0], x[1], x[2]));
 }
+
+bool Expression::uses(const std::string &variable) const
+{
+  return std::regex_search(text, std::regex("\\b" + variable + "\\b"));
+}
 } // namespace signorini

@@ -269,6 +269,12 @@ std::string ParameterText::where(const std::string &path) const
   return subsection != nullptr ? subsection->where() : display_name(file);
 }
 
+std::string ParameterText::where(const std::string &path, const std::string &key) const
+{
+  const ParameterEntry *const entry = find(path, key);
+  return entry != nullptr ? entry->where() : where(path);
+}
+
 std::vector<std::string> ParameterText::names_below(const std::string &path, const std::string &prefix) const
 {
   std::vector<std::string> names;

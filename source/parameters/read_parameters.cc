@@ -5,6 +5,7 @@
 #include "signorini/parameters/body_expressions.h"
 #include "signorini/parameters/body_parameters.h"
 #include "signorini/parameters/contact_parameters.h"
+#include "signorini/parameters/exact_solution_parameters.h"
 #include "signorini/parameters/output_directory.h"
 #include "signorini/parameters/run_parameters.h"
 #include "signorini/parameters/section_reader.h"
@@ -71,6 +72,14 @@ void check_subsections(const ParameterText &text, const SectionReader &top,
   if (!obstacles.empty())
     require(text, "Contact", "there are obstacles, which no body can feel without contact",
             top.complain("Obstacles", "").where);
+  else if (bodies.size() == 1 && text.find_subsection("Contact") != nullptr)
+    throw InputError(
+        Complaint("'Contact' has nothing to do: there is one body and no obstacle")
+            .at(text.where("Contact"))
+            .found(fmt::format("Bodies = {}", bodies.front()))
+            .expected("at least two bodies, or an obstacle")
+            .advise("add a name to 'Obstacles' with 'subsection Obstacle NAME', or one to 'Bodies' "
+                    "with 'subsection Body NAME', or remove 'Contact'"));
 }
 
 /// Things that make no sense without inertia.
@@ -116,6 +125,7 @@ void check_together(const ParameterText &text, const Parameters &parameters)
   check_densities(text, parameters);
   for (const BodyParameters &body : parameters.bodies)
     check_expressions(text, body, parameters.dimension, end_time);
+  check_exact_solution(text, parameters);
 }
 } // namespace
 
@@ -162,9 +172,7 @@ Parameters read_parameters(const ParameterText &text)
     parameters.exact_solution = read_exact_solution(text, in_use);
   parameters.output = read_output(text, in_use);
   check_together(text, parameters);
-  const ParameterEntry *const directory = text.find("Output", "Directory");
-  check_output_directory(parameters.output.directory,
-                         directory != nullptr ? directory->where() : text.where(""));
+  check_output_directory(parameters.output.directory, text.where("Output", "Directory"));
   return parameters;
 }
 } // namespace signorini

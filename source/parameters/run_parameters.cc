@@ -3,7 +3,6 @@
 
 #include "signorini/parameters/section_reader.h"
 
-#include <algorithm>
 #include <filesystem>
 
 namespace signorini
@@ -19,41 +18,6 @@ const NameTable<QuasiStaticParameters::LinearSolver> &linear_solvers()
   return table;
 }
 
-/// A number that an exact solution needs.
-struct ExactSolutionKey
-{
-  std::string key;
-  ValueRange range;
-  std::string default_value; ///< empty: required
-  std::string unit;
-  std::string text;
-};
-
-/// A known exact solution and its numbers.
-struct ExactSolutionCase
-{
-  std::string name;
-  std::vector<ExactSolutionKey> keys;
-};
-
-const std::vector<ExactSolutionCase> &exact_solutions()
-{
-  static const ExactSolutionKey radius{"Radius", number_above(0.), "", "m",
-                                       "Hertz: radius of the round body."};
-  static const ExactSolutionKey fraction{
-      "Fraction of the contact", number_above_up_to(0., 1.), "1", "",
-      "Hertz: share of the contact that is modelled, such as 0.25 for a quarter."};
-  static const ExactSolutionKey pressure{"Pressure", number_above(0.), "", "Pa",
-                                         "Patch: uniform contact pressure."};
-  static const std::vector<ExactSolutionCase> table{{"Hertz sphere", {radius, fraction}},
-                                                    {"Hertz cylinder", {radius, fraction}},
-                                                    {"Squeezed bars", {}},
-                                                    {"Patch", {pressure}},
-                                                    {"Bar impact", {}},
-                                                    {"Bounce", {}}};
-  return table;
-}
-
 void declare_quasi_static(Declarations &declarations)
 {
   SubsectionDeclaration run(declarations, "Quasi-static",
@@ -62,7 +26,8 @@ void declare_quasi_static(Declarations &declarations)
           "Time t of the last load step; it only enters the formulas.");
   run.add("Load steps", integer_from(1, 1000000), "1", "", "Equal steps from time 0 to the end time.");
   run.add("Tolerance", number_between(0., 1.), "1e-9", "",
-          "Residual force of every body relative to the largest.");
+          "Largest residual force of any body, relative to the root of the sum of squares of that body's own "
+          "forces.");
   run.add("Maximum iterations", integer_from(1, 10000), "50", "", "Newton iterations in one load step.");
   run.add("Maximum bisections", integer_from(0, 30), "8", "", "How often a load step that fails is halved.");
   run.add("Linear solver", one_of(names_in(linear_solvers())), "automatic", "",
@@ -131,45 +96,6 @@ std::variant<QuasiStaticParameters, ExplicitParameters> read_solver(const Parame
   if (quasi_static)
     return read_quasi_static(SectionReader(text, in_use, "Quasi-static", 3));
   return read_explicit(SectionReader(text, in_use, "Explicit", 3));
-}
-
-std::vector<std::string> exact_solution_names()
-{
-  std::vector<std::string> names;
-  for (const ExactSolutionCase &entry : exact_solutions())
-    names.push_back(entry.name);
-  return names;
-}
-
-void declare_exact_solution(Declarations &declarations, const DeclarationScope &scope)
-{
-  const std::string path = "Exact solution";
-  if (!scope.includes(path))
-    return;
-  SubsectionDeclaration section(declarations, path, "What the result is measured against.");
-  section.add_required("Case", one_of(exact_solution_names()), "", "Name of the exact solution.");
-  for (const ExactSolutionCase &entry : exact_solutions())
-    for (const ExactSolutionKey &key : entry.keys)
-    {
-      if (!scope.chosen(path, "Case", entry.name, "") || declarations.find(path, key.key) != nullptr)
-        continue;
-      if (key.default_value.empty())
-        section.add_required(key.key, key.range, key.unit, key.text);
-      else
-        section.add(key.key, key.range, key.default_value, key.unit, key.text);
-    }
-}
-
-ExactSolutionParameters read_exact_solution(const ParameterText &text, const Declarations &in_use)
-{
-  const SectionReader section(text, in_use, "Exact solution", 3);
-  ExactSolutionParameters exact;
-  exact.name = section.value("Case");
-  for (const ExactSolutionCase &entry : exact_solutions())
-    if (entry.name == exact.name)
-      for (const ExactSolutionKey &key : entry.keys)
-        exact.values[key.key] = section.number(key.key);
-  return exact;
 }
 
 void declare_output(Declarations &declarations, const DeclarationScope &scope)

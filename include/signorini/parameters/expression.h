@@ -27,6 +27,9 @@ public:
   /// Value at a point in space and time. May be NaN or infinite.
   double value(const Triple &x, double t) const;
 
+  /// Whether the formula has this variable: x, y, z or t.
+  bool uses(const std::string &variable) const;
+
   const std::string &formula() const { return text; }
 
 private:

@@ -44,6 +44,8 @@ struct ParameterText
   std::string value(const std::string &path, const std::string &key, const std::string &fallback = "") const;
   /// Where a subsection stands; for the top level or an absent one the file.
   std::string where(const std::string &path) const;
+  /// Where an entry stands; for an absent one its subsection.
+  std::string where(const std::string &path, const std::string &key) const;
   /// Last names of the subsections directly below `path` that start with `prefix`.
   std::vector<std::string> names_below(const std::string &path, const std::string &prefix = "") const;
 };

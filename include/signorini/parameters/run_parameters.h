@@ -4,7 +4,6 @@
 #include "signorini/parameters/declarations.h"
 #include "signorini/parameters/parameters.h"
 
-#include <string>
 #include <variant>
 #include <vector>
 
@@ -16,13 +15,6 @@ void declare_solver(Declarations &declarations, const DeclarationScope &scope);
 /// Read the one of them that is present; throws InputError if it is none or both.
 std::variant<QuasiStaticParameters, ExplicitParameters> read_solver(const ParameterText &text,
                                                                     const Declarations &in_use);
-
-/// Names of the known exact solutions.
-std::vector<std::string> exact_solution_names();
-
-/// Declare `Exact solution`, with the keys that belong to its case.
-void declare_exact_solution(Declarations &declarations, const DeclarationScope &scope);
-ExactSolutionParameters read_exact_solution(const ParameterText &text, const Declarations &in_use);
 
 /// Declare `Output`. Its directory is output/NAME by default, NAME being that of the parameter file.
 void declare_output(Declarations &declarations, const DeclarationScope &scope);

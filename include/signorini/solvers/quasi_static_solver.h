@@ -36,9 +36,9 @@ public:
                     SceneForces<dim> &forces, const SurfaceMap<dim> *map,
                     const QuasiStaticParameters &parameters, RunTime &run_time);
 
-  /// Moves `state`, which must obey the supports at its own time, to the equilibrium at `time`; `report` is called
-  /// after every iteration. Returns false, with `state` as it was, if Newton's method failed; `failure()` then says
-  /// why.
+  /// Moves `state`, which must obey the supports at its own time, to the equilibrium at `time`; `report` is
+  /// called after every iteration. Returns false, with `state` as it was, if Newton's method failed;
+  /// `failure()` then says why.
   bool solve(double time, State &state, const std::function<void(const NewtonReport &)> &report);
 
   const std::string &failure() const { return reason; }

@@ -40,4 +40,31 @@ TEST(Restitution, FollowsASimulatedSpringAndDashpot)
   for (const double damping_ratio : {.05, .4, .7071, .9, .999, 1., 1.5, 3.})
     EXPECT_NEAR(restitution(damping_ratio), simulate_bounce(damping_ratio), 2e-4) << damping_ratio;
 }
+
+/// p₀ of a sphere or cylinder of radius 1 under a force of 1.
+template <int dim>
+double peak_pressure(const Parameters &parameters)
+{
+  Results<dim> results;
+  results.parameters = &parameters;
+  results.contact.resultants.push_back(Eigen::Matrix<double, dim, 1>::Unit(dim - 1));
+  return exact_pressure(results, 0.);
+}
+
+TEST(Hertz, TakesTheBodiesThatTouch)
+{
+  Parameters parameters;
+  parameters.bodies.resize(1);
+  parameters.bodies[0].material.youngs_modulus = 2.;
+  parameters.obstacles.resize(1);
+  parameters.exact_solution =
+      ExactSolutionParameters{"Hertz sphere", {{"Radius", 1.}, {"Fraction of the contact", 1.}}};
+  const double on_obstacle = peak_pressure<3>(parameters);
+  EXPECT_NEAR(on_obstacle, std::cbrt(6. * 4.) / std::acos(-1.), 1e-14); // p₀³ = 6 P E*²/(π³R²)
+  parameters.obstacles.clear();
+  parameters.bodies.push_back(parameters.bodies[0]);
+  EXPECT_NEAR(peak_pressure<3>(parameters), on_obstacle / std::cbrt(4.), 1e-14);
+  parameters.exact_solution->name = "Hertz cylinder";
+  EXPECT_NEAR(peak_pressure<2>(parameters), std::sqrt(1. / std::acos(-1.)), 1e-14); // p₀² = P E*/(πR)
+}
 } // namespace

@@ -26,6 +26,14 @@ TEST(Expression, RefusesWhatWouldBeMisread)
     EXPECT_THROW(Expression{formula}, InputError) << formula;
 }
 
+TEST(Expression, KnowsItsVariables)
+{
+  EXPECT_TRUE(Expression("max(0, z)").uses("z"));
+  EXPECT_TRUE(Expression("2*z^2").uses("z"));
+  EXPECT_FALSE(Expression("x + y + t").uses("z"));
+  EXPECT_FALSE(Expression("exp(x)").uses("t"));
+}
+
 TEST(Strings, NumbersAreWholeAndFinite)
 {
   EXPECT_EQ(parse_number("+1.5e3").value(), 1500.);

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include "signorini/parameters/parameter_text.h"
+#include "signorini/parameters/parameters.h"
+
+#include <functional>
+#include <optional>
+#include <string>
+
+namespace signorini
+{
+/// What contradicts a need, and where it stands.
+struct SceneFault
+{
+  std::string where; ///< file and line
+  std::string found;
+};
+
+/// A condition on a whole scene.
+struct SceneNeed
+{
+  std::string text; ///< completes "it needs …"
+  std::function<std::optional<SceneFault>(const ParameterText &, const Parameters &)> find_fault;
+};
+
+/// Needs by the names they are listed with.
+SceneNeed dimension_equal_to(unsigned int dimension);
+SceneNeed quasi_static_run();
+SceneNeed explicit_run();
+SceneNeed contact();
+SceneNeed contact_damping();
+SceneNeed number_of_bodies(unsigned int number);
+SceneNeed number_of_obstacles(unsigned int number);
+/// One body and one obstacle, or two bodies and no obstacle: it is clear what touches what.
+SceneNeed one_touching_pair();
+SceneNeed planes_only();
+SceneNeed boxes_only();
+/// No body is rotated or scaled.
+SceneNeed shifts_only();
+SceneNeed no_grading();
+/// All bodies are boxes of one material and one size.
+SceneNeed equal_boxes();
+SceneNeed a_load();
+} // namespace signorini

@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "signorini/parameters/exact_solution_parameters.h"
+
+#include "signorini/base/exceptions.h"
+#include "signorini/parameters/scene_needs.h"
+#include "signorini/parameters/section_reader.h"
+#include "signorini/parameters/strings.h"
+
+#include <fmt/format.h>
+
+namespace signorini
+{
+namespace
+{
+/// A number that an exact solution needs.
+struct ExactSolutionKey
+{
+  std::string key;
+  ValueRange range;
+  std::string default_value; ///< empty: required
+  std::string unit;
+  std::string text;
+};
+
+/// A known exact solution, its numbers and the scenes it holds for.
+struct ExactSolutionCase
+{
+  std::string name;
+  std::vector<ExactSolutionKey> keys;
+  std::vector<SceneNeed> needs;
+};
+
+const std::vector<ExactSolutionCase> &exact_solutions()
+{
+  static const ExactSolutionKey radius{"Radius", number_above(0.), "", "m",
+                                       "Hertz: radius of the round body."};
+  static const ExactSolutionKey fraction{
+      "Fraction of the contact", number_above_up_to(0., 1.), "1", "",
+      "Hertz: share of the contact that is modelled, such as 0.25 for a quarter."};
+  static const ExactSolutionKey pressure{"Pressure", number_above(0.), "", "Pa",
+                                         "Patch: uniform contact pressure."};
+  static const std::vector<ExactSolutionCase> table{
+      {"Hertz sphere", {radius, fraction}, {dimension_equal_to(3), one_touching_pair(), contact()}},
+      {"Hertz cylinder", {radius, fraction}, {dimension_equal_to(2), one_touching_pair(), contact()}},
+      {"Squeezed bars",
+       {},
+       {quasi_static_run(), number_of_bodies(2), boxes_only(), number_of_obstacles(0), contact(),
+        shifts_only()}},
+      {"Patch", {pressure}, {quasi_static_run(), number_of_bodies(2), contact(), a_load()}},
+      {"Bar impact",
+       {},
+       {explicit_run(), number_of_bodies(2), equal_boxes(), number_of_obstacles(0), contact(),
+        shifts_only()}},
+      {"Bounce",
+       {},
+       {explicit_run(), number_of_bodies(1), boxes_only(), number_of_obstacles(1), planes_only(),
+        contact_damping(), no_grading()}}};
+  return table;
+}
+
+const ExactSolutionCase *find_case(const std::string &name)
+{
+  for (const ExactSolutionCase &entry : exact_solutions())
+    if (entry.name == name)
+      return &entry;
+  return nullptr;
+}
+
+std::vector<std::string> exact_solution_names()
+{
+  std::vector<std::string> names;
+  for (const ExactSolutionCase &entry : exact_solutions())
+    names.push_back(entry.name);
+  return names;
+}
+
+std::string list_needs(const ExactSolutionCase &entry)
+{
+  std::vector<std::string> needs;
+  for (const SceneNeed &need : entry.needs)
+    needs.push_back(need.text);
+  return join(needs, "; ");
+}
+} // namespace
+
+void declare_exact_solution(Declarations &declarations, const DeclarationScope &scope)
+{
+  const std::string path = "Exact solution";
+  if (!scope.includes(path))
+    return;
+  SubsectionDeclaration section(declarations, path, "What the result is measured against.");
+  std::string needs;
+  for (const ExactSolutionCase &entry : exact_solutions())
+    needs += fmt::format(" {} needs {}.", entry.name, list_needs(entry));
+  section.add_required("Case", one_of(exact_solution_names()), "", "Name of the exact solution." + needs);
+  for (const ExactSolutionCase &entry : exact_solutions())
+    for (const ExactSolutionKey &key : entry.keys)
+    {
+      if (!scope.chosen(path, "Case", entry.name, "") || declarations.find(path, key.key) != nullptr)
+        continue;
+      if (key.default_value.empty())
+        section.add_required(key.key, key.range, key.unit, key.text);
+      else
+        section.add(key.key, key.range, key.default_value, key.unit, key.text);
+    }
+}
+
+ExactSolutionParameters read_exact_solution(const ParameterText &text, const Declarations &in_use)
+{
+  const SectionReader section(text, in_use, "Exact solution", 3);
+  ExactSolutionParameters exact;
+  exact.name = section.value("Case");
+  for (const ExactSolutionKey &key : find_case(exact.name)->keys)
+    exact.values[key.key] = section.number(key.key);
+  return exact;
+}
+
+void check_exact_solution(const ParameterText &text, const Parameters &parameters)
+{
+  if (!parameters.exact_solution)
+    return;
+  const ExactSolutionCase &entry = *find_case(parameters.exact_solution->name);
+  for (const SceneNeed &need : entry.needs)
+    if (const auto fault = need.find_fault(text, parameters))
+      throw InputError(
+          Complaint(fmt::format("exact solution '{}' needs {}", entry.name, need.text))
+              .at(fault->where)
+              .found(fault->found)
+              .expected(list_needs(entry))
+              .advise(fmt::format("change the scene, or the case at {}, or remove 'Exact solution'",
+                                  text.where("Exact solution", "Case"))));
+}
+} // namespace signorini

@@ -1,0 +1,278 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "signorini/parameters/scene_needs.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <variant>
+
+namespace signorini
+{
+namespace
+{
+using MaybeFault = std::optional<SceneFault>;
+
+/// How many, in words as far as they are used.
+std::string count(const std::size_t number, const std::string &one, const std::string &several)
+{
+  const std::string word = number == 0   ? "no"
+                           : number == 1 ? "one"
+                           : number == 2 ? "two"
+                                         : std::to_string(number);
+  return word + " " + (number < 2 ? one : several);
+}
+
+std::string count_bodies(const Parameters &parameters)
+{
+  return count(parameters.bodies.size(), "body", "bodies");
+}
+
+std::string count_obstacles(const Parameters &parameters)
+{
+  return count(parameters.obstacles.size(), "obstacle", "obstacles");
+}
+
+template <typename Run>
+SceneNeed run_of(const std::string &name)
+{
+  return {"'" + name + "'",
+          [](const ParameterText &text, const Parameters &parameters) -> MaybeFault
+          {
+            if (std::holds_alternative<Run>(parameters.solver))
+              return {};
+            const bool is_explicit = std::holds_alternative<ExplicitParameters>(parameters.solver);
+            const std::string found = is_explicit ? "Explicit" : "Quasi-static";
+            return SceneFault{text.where(found), found};
+          }};
+}
+
+/// The first fault that `find_fault(path, body)` sees in a body.
+template <typename FindFault>
+SceneNeed every_body(const std::string &text, const FindFault &find_fault)
+{
+  return {text,
+          [find_fault](const ParameterText &file, const Parameters &parameters) -> MaybeFault
+          {
+            for (const BodyParameters &body : parameters.bodies)
+              if (const MaybeFault fault = find_fault(file, "Body " + body.name, body))
+                return fault;
+            return {};
+          }};
+}
+
+/// Where a fault is shown that no line of the file commits.
+std::string place_of_case(const ParameterText &text)
+{
+  return text.where("Exact solution", "Case");
+}
+
+/// An entry at the top level, which may be absent.
+std::string place_at_top(const ParameterText &text, const std::string &key)
+{
+  return text.find("", key) != nullptr ? text.where("", key) : place_of_case(text);
+}
+
+SceneFault fault_of_entry(const ParameterText &text, const std::string &path, const std::string &key,
+                          const std::string &default_value)
+{
+  return {text.where(path, key), join_path(path, key) + " = " + text.value(path, key, default_value)};
+}
+
+/// Names a number in which two materials differ.
+std::string difference(const MaterialParameters &first, const MaterialParameters &other)
+{
+  if (first.model != other.model)
+    return "Model";
+  if (first.youngs_modulus != other.youngs_modulus)
+    return "Young's modulus";
+  if (first.poissons_ratio != other.poissons_ratio)
+    return "Poisson's ratio";
+  return first.density != other.density ? "Density" : "";
+}
+
+/// Up to the round-off in upper − lower.
+bool have_same_size(const MeshParameters &first, const MeshParameters &other, const unsigned int dimension)
+{
+  for (unsigned int d = 0; d < dimension; ++d)
+  {
+    const double size = first.upper_corner[d] - first.lower_corner[d];
+    if (std::abs(other.upper_corner[d] - other.lower_corner[d] - size) > 1e-9 * size)
+      return false;
+  }
+  return true;
+}
+
+MaybeFault find_unequal_box(const ParameterText &text, const Parameters &parameters)
+{
+  const BodyParameters &first = parameters.bodies.front();
+  for (const BodyParameters &body : parameters.bodies)
+  {
+    const std::string path = "Body " + body.name;
+    if (const std::string key = difference(first.material, body.material); !key.empty())
+    {
+      SceneFault fault = fault_of_entry(text, path + "/Material", key, "linear elastic");
+      fault.found += fmt::format(", other than that of body '{}'", first.name);
+      return fault;
+    }
+    if (!have_same_size(first.mesh, body.mesh, parameters.dimension))
+      return SceneFault{text.where(path + "/Mesh"),
+                        fmt::format("bodies '{}' and '{}' differ in size", first.name, body.name)};
+  }
+  return {};
+}
+} // namespace
+
+SceneNeed dimension_equal_to(const unsigned int dimension)
+{
+  return {fmt::format("Dimension = {}", dimension),
+          [dimension](const ParameterText &text, const Parameters &parameters) -> MaybeFault
+          {
+            if (parameters.dimension == dimension)
+              return {};
+            return SceneFault{place_at_top(text, "Dimension"),
+                              fmt::format("Dimension = {}", parameters.dimension)};
+          }};
+}
+
+SceneNeed quasi_static_run()
+{
+  return run_of<QuasiStaticParameters>("Quasi-static");
+}
+
+SceneNeed explicit_run()
+{
+  return run_of<ExplicitParameters>("Explicit");
+}
+
+SceneNeed contact()
+{
+  return {"'Contact'",
+          [](const ParameterText &text, const Parameters &parameters) -> MaybeFault
+          {
+            if (parameters.contact)
+              return {};
+            return SceneFault{place_of_case(text), "there is no subsection 'Contact'"};
+          }};
+}
+
+SceneNeed contact_damping()
+{
+  return {"'Contact' with 'Damping'",
+          [](const ParameterText &text, const Parameters &parameters) -> MaybeFault
+          {
+            if (!parameters.contact)
+              return contact().find_fault(text, parameters);
+            if (!parameters.contact->damping)
+              return SceneFault{text.where("Contact"), "'Contact' has no subsection 'Damping'"};
+            return {};
+          }};
+}
+
+SceneNeed number_of_bodies(const unsigned int number)
+{
+  return {count(number, "body", "bodies"),
+          [number](const ParameterText &text, const Parameters &parameters) -> MaybeFault
+          {
+            if (parameters.bodies.size() == number)
+              return {};
+            return SceneFault{place_at_top(text, "Bodies"), count_bodies(parameters)};
+          }};
+}
+
+SceneNeed number_of_obstacles(const unsigned int number)
+{
+  return {count(number, "obstacle", "obstacles"),
+          [number](const ParameterText &text, const Parameters &parameters) -> MaybeFault
+          {
+            if (parameters.obstacles.size() == number)
+              return {};
+            return SceneFault{place_at_top(text, "Obstacles"), count_obstacles(parameters)};
+          }};
+}
+
+SceneNeed one_touching_pair()
+{
+  return {"one body and one obstacle, or two bodies and no obstacle",
+          [](const ParameterText &text, const Parameters &parameters) -> MaybeFault
+          {
+            const std::size_t n_bodies = parameters.bodies.size(), n_obstacles = parameters.obstacles.size();
+            if (n_bodies <= 2 && n_bodies + n_obstacles == 2)
+              return {};
+            return SceneFault{place_at_top(text, "Bodies"),
+                              count_bodies(parameters) + " and " + count_obstacles(parameters)};
+          }};
+}
+
+SceneNeed planes_only()
+{
+  return {"obstacles that are planes",
+          [](const ParameterText &text, const Parameters &parameters) -> MaybeFault
+          {
+            for (const ObstacleParameters &obstacle : parameters.obstacles)
+              if (obstacle.shape != ObstacleParameters::Shape::plane)
+                return fault_of_entry(text, "Obstacle " + obstacle.name, "Shape", "plane");
+            return {};
+          }};
+}
+
+SceneNeed boxes_only()
+{
+  return every_body(
+      "bodies that are boxes",
+      [](const ParameterText &text, const std::string &path, const BodyParameters &body) -> MaybeFault
+      {
+        if (body.mesh.shape == MeshParameters::Shape::box)
+          return {};
+        return fault_of_entry(text, path + "/Mesh", "Shape", "box");
+      });
+}
+
+SceneNeed shifts_only()
+{
+  return every_body(
+      "no rotation or scale in 'Placement'",
+      [](const ParameterText &text, const std::string &path, const BodyParameters &body) -> MaybeFault
+      {
+        if (body.placement.rotation_angle != 0.)
+          return fault_of_entry(text, path + "/Placement", "Rotation angle", "0");
+        if (body.placement.scale != 1.)
+          return fault_of_entry(text, path + "/Placement", "Scale", "1");
+        return {};
+      });
+}
+
+SceneNeed no_grading()
+{
+  return every_body(
+      "no 'Grading'",
+      [](const ParameterText &text, const std::string &path, const BodyParameters &body) -> MaybeFault
+      {
+        const std::string grading = path + "/Mesh/Grading";
+        if (!body.mesh.grading)
+          return {};
+        return SceneFault{text.where(grading), grading};
+      });
+}
+
+SceneNeed equal_boxes()
+{
+  return {"boxes of the same material and size", [](const ParameterText &text, const Parameters &parameters)
+          {
+            const MaybeFault fault = boxes_only().find_fault(text, parameters);
+            return fault ? fault : find_unequal_box(text, parameters);
+          }};
+}
+
+SceneNeed a_load()
+{
+  return {"a 'Load'",
+          [](const ParameterText &text, const Parameters &parameters) -> MaybeFault
+          {
+            if (std::any_of(parameters.bodies.begin(), parameters.bodies.end(),
+                            [](const BodyParameters &body) { return !body.loads.empty(); }))
+              return {};
+            return SceneFault{place_of_case(text), "no body has a subsection 'Load NAME'"};
+          }};
+}
+} // namespace signorini
