@@ -88,14 +88,14 @@ void Simulation<dim>::record_explicit(const ExplicitSolver<dim> &solver, double 
                             results.n_steps, state.time, time_step, results.contact.n_active,
                             results.contact.max_penetration_over_thickness, energy.residual()),
                 state.time / end);
-  if (!std::isfinite(energy.kinetic + energy.elastic))
+  if (!std::isfinite(energy.kinetic + energy.elastic + energy.contact))
     throw NumericalError(
         Complaint(
             fmt::format("the motion is no longer a number at t = {:.6g}: an element was turned inside out",
                         state.time))
             .advise("look at the last fields; refine, or lower the step factors"));
   const double tolerance = std::get<ExplicitParameters>(parameters.solver).ledger_tolerance;
-  if (std::abs(energy.residual()) > tolerance)
+  if (!(std::abs(energy.residual()) <= tolerance))
     throw NumericalError(
         Complaint(fmt::format("the energy ledger does not close at t = {:.6g}", state.time))
             .found(fmt::format("{:+.3g} of the largest energy", energy.residual()))

@@ -38,6 +38,10 @@ void Simulation<dim>::run_quasi_static(const QuasiStaticParameters &solver_param
     if (is_solved)
     {
       ++results.n_steps;
+      if (solver.renewal_residual() > 10. * solver_parameters.tolerance)
+        progress.say(fmt::format(
+            "load {:.5g}: new points of integration disturb the equilibrium by {:.1e} of the forces", time,
+            solver.renewal_residual()));
       record_quasi_static(end);
       step = std::min(largest_step, 2. * step);
       continue;

@@ -17,6 +17,12 @@ namespace
 {
 /// Up to here sparse factorisation beats iteration (measured, doc/theory.md).
 constexpr unsigned int max_n_dofs_direct_3d = 30000, max_n_dofs_direct_2d = 200000;
+
+/// However stiff the contact, a larger share of a body's forces is never taken for round-off.
+constexpr double largest_round_off_share = 1e-4;
+
+/// After so many equilibria that new points of integration disturbed, the last one is taken.
+constexpr unsigned int max_renewal_rounds = 6;
 } // namespace
 
 template <int dim>
@@ -122,28 +128,12 @@ std::vector<double> QuasiStaticSolver<dim>::body_norms(const Vector &values) con
 }
 
 template <int dim>
-double QuasiStaticSolver<dim>::relative_residual(const State &state)
+void QuasiStaticSolver<dim>::judge_bodies(const State &state)
 {
   compute_residual(state);
-  Vector magnitudes = discretization->make_vector();
-  forces->elasticity->add_magnitudes(magnitudes);
-  discretization->collect(magnitudes);
-  const std::vector<double> norms = body_norms(residual), round_off = body_norms(magnitudes);
-  double largest = 0.;
-  for (unsigned int body = 0; body < norms.size(); ++body)
-  {
-    if (!std::isfinite(norms[body] + scales[body]))
-      return std::numeric_limits<double>::quiet_NaN();
-    // A body without stress has no forces but round-off, which is not to be judged.
-    if (norms[body] > 4. * std::numeric_limits<double>::epsilon() * round_off[body])
-      largest = std::max(largest, norms[body] / scales[body]);
-  }
-  return largest;
-}
-
-template <int dim>
-double QuasiStaticSolver<dim>::compute_round_off(const State &state) const
-{
+  Vector elastic = discretization->make_vector();
+  forces->elasticity->add_magnitudes(elastic);
+  discretization->collect(elastic);
   Vector stiffness = discretization->make_vector(), damping = discretization->make_vector();
   for (const auto &contact : forces->contacts)
     contact->add_row_sum_bounds(stiffness, damping);
@@ -151,12 +141,46 @@ double QuasiStaticSolver<dim>::compute_round_off(const State &state) const
     for (unsigned int d = 0; d < dim; ++d)
       stiffness.local_element(node.dofs[d]) *=
           node.position[d] + state.displacement.local_element(node.dofs[d]);
-  const std::vector<double> round_off = body_norms(stiffness);
+
+  const std::vector<double> norms = body_norms(residual), elastic_magnitudes = body_norms(elastic),
+                            contact_magnitudes = body_norms(stiffness);
+  constexpr double epsilon = std::numeric_limits<double>::epsilon();
+  relative_residuals.assign(norms.size(), 0.);
+  round_off_shares.assign(norms.size(), 0.);
+  for (unsigned int body = 0; body < norms.size(); ++body)
+  {
+    // Where all forces of a body are round-off there is nothing to judge.
+    const bool is_at_rest = norms[body] <= 4. * epsilon * elastic_magnitudes[body] ||
+                            scales[body] <= 4. * epsilon * contact_magnitudes[body];
+    if (!std::isfinite(norms[body] + scales[body]))
+      relative_residuals[body] = std::numeric_limits<double>::quiet_NaN();
+    else if (!is_at_rest)
+    {
+      relative_residuals[body] = norms[body] / scales[body];
+      round_off_shares[body] =
+          std::min(largest_round_off_share, epsilon * contact_magnitudes[body] / scales[body]);
+    }
+  }
+}
+
+template <int dim>
+double QuasiStaticSolver<dim>::relative_residual(const State &state)
+{
+  judge_bodies(state);
   double largest = 0.;
-  for (unsigned int body = 0; body < scales.size(); ++body)
-    if (scales[body] > 0.)
-      largest = std::max(largest, std::numeric_limits<double>::epsilon() * round_off[body] / scales[body]);
+  for (const double relative : relative_residuals)
+    largest = std::isnan(relative) || std::isnan(largest) ? std::numeric_limits<double>::quiet_NaN()
+                                                          : std::max(largest, relative);
   return largest;
+}
+
+template <int dim>
+bool QuasiStaticSolver<dim>::is_within(double tolerance, bool has_stagnated) const
+{
+  for (unsigned int body = 0; body < relative_residuals.size(); ++body)
+    if (relative_residuals[body] > std::max(tolerance, has_stagnated ? round_off_shares[body] : 0.))
+      return false;
+  return true;
 }
 
 template <int dim>
@@ -303,6 +327,8 @@ void QuasiStaticSolver<dim>::move_supports(double time, State &state)
     return;
   Vector increment = discretization->make_vector();
   compute_increment(DrivenBy::supports, increment);
+  if (longest_step > 0. && increment.linfty_norm() > 3. * longest_step)
+    throw NumericalError("the supports move so far in one step that surfaces could pass through each other");
   state.displacement += increment;
   supports->impose(time, state.displacement);
   discretization->distribute(state.displacement);
@@ -312,16 +338,15 @@ void QuasiStaticSolver<dim>::move_supports(double time, State &state)
 template <int dim>
 bool QuasiStaticSolver<dim>::has_converged(const State &state, double error, double error_before)
 {
-  double tolerance = parameters.tolerance;
-  if (error > 0.5 * error_before)
-    tolerance = std::max(tolerance, compute_round_off(state));
-  if (error > tolerance)
+  const bool has_stagnated = error > 0.5 * error_before;
+  if (!is_within(parameters.tolerance, has_stagnated))
     return false;
   // Points of integration follow the bodies: what was found with the old ones must be an equilibrium with the
   // new.
   for (const auto &term : terms)
     term->renew(state);
-  return relative_residual(state) <= 10. * tolerance;
+  residual_after_renewal = relative_residual(state);
+  return is_within(10. * parameters.tolerance, has_stagnated) || ++n_renewal_rounds == max_renewal_rounds;
 }
 
 template <int dim>
@@ -333,6 +358,7 @@ bool QuasiStaticSolver<dim>::iterate(double time, State &state,
   Vector increment = discretization->make_vector();
   NewtonReport progress;
   progress.residual = std::numeric_limits<double>::max();
+  n_renewal_rounds = 0;
   try
   {
     move_supports(time, state);
@@ -346,8 +372,8 @@ bool QuasiStaticSolver<dim>::iterate(double time, State &state,
       if (has_converged(state, progress.residual, residual_before))
         return true;
       if (progress.iteration == parameters.max_iterations)
-        throw NumericalError(
-            fmt::format("Newton's method only reached a relative residual of {:.3g}", progress.residual));
+        throw NumericalError(fmt::format("Newton's method only reached a relative residual of {:.3g}",
+                                         relative_residual(state)));
       progress.linear_iterations = compute_increment(DrivenBy::residual, increment);
       progress.step_length = search_along(increment, state);
       if (progress.step_length == 0.)

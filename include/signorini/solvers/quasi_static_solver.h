@@ -43,6 +43,10 @@ public:
 
   const std::string &failure() const { return reason; }
   unsigned int n_iterations() const { return total_iterations; }
+  /// What the points of integration made at the last equilibrium leave of it, relative like the tolerance:
+  /// above that where they keep disturbing it, an error of integration.
+  double renewal_residual() const { return residual_after_renewal; }
+
   std::string linear_solver_name() const { return linear_solver->name(); }
 
   /// Forces that the supports exert at the last equilibrium, on supported entries only [N].
@@ -52,8 +56,9 @@ private:
   bool iterate(double time, State &state, const std::function<void(const NewtonReport &)> &report);
   void compute_residual(const State &state);
   std::vector<double> body_norms(const Vector &values) const;
+  void judge_bodies(const State &state);
   double relative_residual(const State &state);
-  double compute_round_off(const State &state) const;
+  bool is_within(double tolerance, bool has_stagnated) const;
   double total_energy() const;
   enum class DrivenBy
   {
@@ -85,7 +90,10 @@ private:
   std::unique_ptr<LinearSolver> linear_solver;
 
   Vector residual, support_forces, regularization;
-  std::vector<double> scales; ///< of every body's forces [N]
+  std::vector<double> scales;                               ///< of every body's forces [N]
+  std::vector<double> relative_residuals, round_off_shares; ///< of every body at the last judgement
+  double residual_after_renewal = 0.;
+  unsigned int n_renewal_rounds = 0;
   dealii::AffineConstraints<double> constraints;
   TangentSystem system;
   unsigned int n_searches_of_matrix = static_cast<unsigned int>(-1);

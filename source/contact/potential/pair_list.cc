@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <stdexcept>
 #include <utility>
 
@@ -98,13 +99,41 @@ void PairList<dim>::renew(const Positions &positions)
     neighbour_list.rebuild(positions);
   positions_at_renewal = positions;
 
+  const Pairs old_pairs = std::move(body_pairs_);
   body_pairs_.clear();
   for (unsigned int i = 0; i < neighbour_list.neighbours().size(); ++i)
     add_body_pairs(i, positions);
+  if (settings_.integration == Integration::face_quadrature)
+    keep_coefficients(old_pairs);
 
   obstacle_pairs_.clear();
   for (unsigned int i = 0; i < obstacles_.size(); ++i)
     add_obstacle_pairs(i, positions);
+}
+
+template <int dim>
+void PairList<dim>::keep_coefficients(const Pairs &old_pairs)
+{
+  const auto key = [](const ContactPair<dim> &pair)
+  {
+    std::array<double, dim + 1> values;
+    values[0] = pair.facet;
+    values[1] = pair.target;
+    std::copy(pair.xi.begin(), pair.xi.end(), values.begin() + 2);
+    return values;
+  };
+  std::map<std::array<double, dim + 1>, const ContactPair<dim> *> old_pair_of;
+  for (const ContactPair<dim> &pair : old_pairs)
+    old_pair_of.emplace(key(pair), &pair);
+  for (ContactPair<dim> &pair : body_pairs_)
+  {
+    const auto old_pair = old_pair_of.find(key(pair));
+    if (old_pair != old_pair_of.end())
+    {
+      pair.stiffness = old_pair->second->stiffness;
+      pair.damping = old_pair->second->damping;
+    }
+  }
 }
 
 template <int dim>

@@ -21,7 +21,8 @@ namespace signorini::contact
 /// Forces act on the surface's nodes; each pair's forces sum to zero, and so do their moments.
 /// E_t = ∞ and h_t = 0 for obstacles, which are met at any depth; another body only as deep as the layer
 /// thickness of the point's own facet. k_A of a pair is fixed when the pair is made (by the closest facet
-/// then); what the stored energy changes by when pairs are made anew is returned by update().
+/// then) and, with face quadrature, kept as long as the point stays near that body; what the stored energy
+/// changes by when face segments are made anew is returned by update().
 ///
 /// Use: update(x) whenever positions changed, evaluate(x), then any of the const functions.
 /// All sums run over owned facets only; add over ranks for totals.

@@ -71,6 +71,10 @@ private:
   NeighbourList<dim> make_neighbour_list() const;
   bool is_excluded_obstacle(unsigned int body, unsigned int obstacle) const;
 
+  /// Gives pairs that were there before the stiffness and damping they had: a point in contact keeps its law,
+  /// whichever facet it has come nearest to, so that renewal brings no energy.
+  void keep_coefficients(const Pairs &old_pairs);
+
   void add_body_pairs(unsigned int neighbours, const Positions &positions);
   void add_segment_pairs(unsigned int neighbours, unsigned int candidate, const Positions &positions);
 
