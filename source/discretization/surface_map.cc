@@ -99,6 +99,7 @@ SurfaceMap<dim>::SurfaceMap(const Scene<dim> &scene, const Discretization<dim> &
   number_nodes(
       dealii::Utilities::MPI::all_gather(discretization->communicator(), pack_own_facets(*discretization)),
       dealii::Utilities::MPI::this_mpi_process(discretization->communicator()));
+  move_origin();
   for (Facet<dim> &facet : contact_surface.facets)
   {
     facet.youngs_modulus = scene.materials[facet.body].youngs_modulus;
@@ -148,6 +149,21 @@ void SurfaceMap<dim>::number_nodes(const std::vector<std::vector<double>> &packe
       }
       contact_surface.facets.push_back(facet);
     }
+}
+
+template <int dim>
+void SurfaceMap<dim>::move_origin()
+{
+  auto &positions = contact_surface.reference_positions;
+  SpatialVector<dim> low = positions.at(0), high = low;
+  for (const SpatialVector<dim> &x : positions)
+  {
+    low = low.cwiseMin(x);
+    high = high.cwiseMax(x);
+  }
+  contact_surface.origin = 0.5 * (low + high);
+  for (SpatialVector<dim> &x : positions)
+    x -= contact_surface.origin;
 }
 
 template <int dim>

@@ -27,20 +27,20 @@ template <int dim, typename Law>
 void CellKernel<dim, Law>::evaluate_volume(const CellGeometry &cell, const double *u, Order order)
 {
   gradients.resize(cell.n_points);
-  ratios.resize(cell.n_points);
+  volume_strains.resize(cell.n_points);
   volumes.resize(cell.n_points);
   cell_volume = 0.;
-  double mean_ratio = 0.;
+  double mean_strain = 0.;
   for (unsigned int q = 0; q < cell.n_points; ++q)
   {
     gradients[q] = displacement_gradient(cell, q, u);
-    law.volume_ratio(gradients[q], order, ratios[q]);
+    law.volume_strain(gradients[q], order, volume_strains[q]);
     cell_volume += cell.weights[q];
-    mean_ratio += cell.weights[q] * ratios[q].value;
+    mean_strain += cell.weights[q] * volume_strains[q].value;
   }
-  mean_ratio /= cell_volume;
+  mean_strain /= cell_volume;
   for (unsigned int q = 0; q < cell.n_points; ++q)
-    volumes[q] = law.volume(uses_mean_volume ? mean_ratio : ratios[q].value);
+    volumes[q] = law.volume(uses_mean_volume ? mean_strain : volume_strains[q].value);
 }
 
 template <int dim, typename Law>
@@ -67,7 +67,8 @@ void CellKernel<dim, Law>::add_force(const CellGeometry &cell, const double *u, 
     law.shape(gradients[q], Order::first, response);
     double stress[dim * dim];
     for (int i = 0; i < dim * dim; ++i)
-      stress[i] = cell.weights[q] * (response.stress[i] + volumes[q].pressure * ratios[q].gradient[i]);
+      stress[i] =
+          cell.weights[q] * (response.stress[i] + volumes[q].pressure * volume_strains[q].gradient[i]);
     const double *g = cell.gradients + q * cell.n_nodes * dim;
     for (unsigned int a = 0; a < cell.n_nodes; ++a)
       for (int i = 0; i < dim; ++i)
@@ -81,15 +82,16 @@ void CellKernel<dim, Law>::compute_tangent(const CellGeometry &cell, const doubl
 {
   const unsigned int n = cell.n_nodes * dim;
   std::fill(tangent, tangent + n * n, 0.);
-  mean_ratio_gradient.assign(n, 0.);
+  mean_strain_gradient.assign(n, 0.);
   evaluate_volume(cell, u, Order::second);
   ShapeResponse<dim> response;
   for (unsigned int q = 0; q < cell.n_points; ++q)
   {
     law.shape(gradients[q], Order::second, response);
-    Eigen::Matrix<double, dim * dim, dim *dim> A = response.tangent + volumes[q].pressure * ratios[q].hessian;
+    Eigen::Matrix<double, dim * dim, dim *dim> A =
+        response.tangent + volumes[q].pressure * volume_strains[q].hessian;
     if (!uses_mean_volume)
-      A += volumes[q].modulus * ratios[q].gradient * ratios[q].gradient.transpose();
+      A += volumes[q].modulus * volume_strains[q].gradient * volume_strains[q].gradient.transpose();
     A *= cell.weights[q];
     const double *g = cell.gradients + q * cell.n_nodes * dim;
     for (unsigned int a = 0; a < cell.n_nodes; ++a)
@@ -105,15 +107,15 @@ void CellKernel<dim, Law>::compute_tangent(const CellGeometry &cell, const doubl
             for (int l = 0; l < dim; ++l)
               tangent_row[b * dim + k] += row[k * dim + l] * g[b * dim + l];
         for (int j = 0; j < dim; ++j)
-          mean_ratio_gradient[a * dim + i] +=
-              cell.weights[q] * ratios[q].gradient[i * dim + j] * g[a * dim + j];
+          mean_strain_gradient[a * dim + i] +=
+              cell.weights[q] * volume_strains[q].gradient[i * dim + j] * g[a * dim + j];
       }
   }
   if (uses_mean_volume)
     for (unsigned int i = 0; i < n; ++i)
       for (unsigned int j = 0; j < n; ++j)
         tangent[i * n + j] +=
-            volumes[0].modulus / cell_volume * mean_ratio_gradient[i] * mean_ratio_gradient[j];
+            volumes[0].modulus / cell_volume * mean_strain_gradient[i] * mean_strain_gradient[j];
 }
 
 template <int dim, typename Law>

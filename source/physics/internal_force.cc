@@ -126,7 +126,7 @@ void InternalForce<dim>::add_magnitudes(Vector &magnitudes) const
         const unsigned int *dofs = cells.cell_dofs(cell);
         for (unsigned int q = 0; q < geometry.n_points; ++q)
         {
-          double strain = 1.; // of F and v the laws subtract 1
+          double strain = 0.;
           for (unsigned int a = 0; a < geometry.n_nodes; ++a)
           {
             const double *gradient = geometry.gradients + (q * geometry.n_nodes + a) * dim;

@@ -2,8 +2,10 @@
 #include "signorini/physics/material.h"
 
 #include <Eigen/LU>
+#include <boost/math/special_functions/log1p.hpp>
 
 #include <cmath>
+#include <limits>
 
 namespace signorini
 {
@@ -13,6 +15,15 @@ template <int dim>
 double trace(const Eigen::Matrix<double, dim, dim> &H)
 {
   return H.trace();
+}
+
+/// det(I + H) − 1.
+template <int dim>
+double volume_strain_of(const Eigen::Matrix<double, dim, dim> &H)
+{
+  const double trace_of_square = (H * H).trace();
+  const double second_invariant = 0.5 * (H.trace() * H.trace() - trace_of_square);
+  return H.trace() + second_invariant + (dim == 3 ? H.determinant() : 0.);
 }
 
 template <int dim>
@@ -46,20 +57,19 @@ void LinearElastic<dim>::shape(const Gradient &H, Order order, ShapeResponse<dim
 }
 
 template <int dim>
-void LinearElastic<dim>::volume_ratio(const Gradient &H, Order order, VolumeRatio<dim> &ratio) const
+void LinearElastic<dim>::volume_strain(const Gradient &H, Order order, VolumeStrain<dim> &strain) const
 {
-  ratio.value = 1. + trace<dim>(H);
+  strain.value = trace<dim>(H);
   for (int i = 0; i < dim; ++i)
     for (int j = 0; j < dim; ++j)
-      ratio.gradient[i * dim + j] = (i == j);
+      strain.gradient[i * dim + j] = (i == j);
   if (order == Order::second)
-    ratio.hessian.setZero();
+    strain.hessian.setZero();
 }
 
 template <int dim>
-VolumeResponse LinearElastic<dim>::volume(double ratio) const
+VolumeResponse LinearElastic<dim>::volume(double strain) const
 {
-  const double strain = ratio - 1.;
   return {0.5 * bulk_modulus * strain * strain, bulk_modulus * strain, bulk_modulus};
 }
 
@@ -79,15 +89,18 @@ template <int dim>
 void NeoHookean<dim>::shape(const Gradient &H, Order order, ShapeResponse<dim> &response) const
 {
   const Gradient F = Gradient::Identity() + H;
-  const double J = F.determinant();
   const Gradient inverse_transpose = F.inverse().transpose();
-  const double scale = std::pow(J, -2. / 3.);
-  const double first_invariant = F.squaredNorm() + (dim == 2 ? 1. : 0.);
-  response.energy = 0.5 * shear_modulus * (scale * first_invariant - 3.);
+  const double volume_logarithm = std::log1p(volume_strain_of<dim>(H)); // not a number where J < 0
+  const double scale = std::exp(-2. / 3. * volume_logarithm);
+  const double stretch = 2. * trace<dim>(H) + H.squaredNorm(); // |F|² − 3
+  const double first_invariant = 3. + stretch;
+  response.energy = 0.5 * shear_modulus * (3. * std::expm1(-2. / 3. * volume_logarithm) + scale * stretch);
   const double mu = shear_modulus * scale;
+  // F − |F|²/3 F^(−T), with F^(−T) = I − Hᵀ F^(−T).
+  const Gradient deviator = H + H.transpose() * inverse_transpose - stretch / 3. * inverse_transpose;
   for (int i = 0; i < dim; ++i)
     for (int j = 0; j < dim; ++j)
-      response.stress[i * dim + j] = mu * (F(i, j) - first_invariant / 3. * inverse_transpose(i, j));
+      response.stress[i * dim + j] = mu * deviator(i, j);
   if (order == Order::first)
     return;
   const auto &G = inverse_transpose;
@@ -101,29 +114,33 @@ void NeoHookean<dim>::shape(const Gradient &H, Order order, ShapeResponse<dim> &
 }
 
 template <int dim>
-void NeoHookean<dim>::volume_ratio(const Gradient &H, Order order, VolumeRatio<dim> &ratio) const
+void NeoHookean<dim>::volume_strain(const Gradient &H, Order order, VolumeStrain<dim> &strain) const
 {
   const Gradient F = Gradient::Identity() + H;
   const double J = F.determinant();
   const Gradient G = F.inverse().transpose();
-  ratio.value = J;
+  strain.value = volume_strain_of<dim>(H);
   for (int i = 0; i < dim; ++i)
     for (int j = 0; j < dim; ++j)
-      ratio.gradient[i * dim + j] = J * G(i, j);
+      strain.gradient[i * dim + j] = J * G(i, j);
   if (order == Order::first)
     return;
   for (int i = 0; i < dim; ++i)
     for (int j = 0; j < dim; ++j)
       for (int k = 0; k < dim; ++k)
         for (int l = 0; l < dim; ++l)
-          ratio.hessian(i * dim + j, k * dim + l) = J * (G(i, j) * G(k, l) - G(i, l) * G(k, j));
+          strain.hessian(i * dim + j, k * dim + l) = J * (G(i, j) * G(k, l) - G(i, l) * G(k, j));
 }
 
 template <int dim>
-VolumeResponse NeoHookean<dim>::volume(double ratio) const
+VolumeResponse NeoHookean<dim>::volume(double strain) const
 {
-  return {0.5 * bulk_modulus * (0.5 * (ratio * ratio - 1.) - std::log(ratio)),
-          0.5 * bulk_modulus * (ratio - 1. / ratio), 0.5 * bulk_modulus * (1. + 1. / (ratio * ratio))};
+  // (v² − 1)/2 − ln v = e²/2 − (ln(1 + e) − e).
+  const double ratio = 1. + strain;
+  const double energy = strain > -1. ? 0.5 * strain * strain - boost::math::log1pmx(strain)
+                                     : std::numeric_limits<double>::quiet_NaN();
+  return {0.5 * bulk_modulus * energy, 0.5 * bulk_modulus * strain * (1. + ratio) / ratio,
+          0.5 * bulk_modulus * (1. + 1. / (ratio * ratio))};
 }
 
 template <int dim>
@@ -136,7 +153,7 @@ Eigen::Matrix3d NeoHookean<dim>::cauchy_stress(const Gradient &H, double pressur
   Eigen::Matrix3d stress = pressure * Eigen::Matrix3d::Identity();
   stress.template topLeftCorner<dim, dim>() += to_matrix<dim>(response.stress) * F.transpose() / J;
   if (dim == 2)
-    stress(2, 2) += shear_modulus * std::pow(J, -5. / 3.) * (1. - (F.squaredNorm() + 1.) / 3.);
+    stress(2, 2) -= shear_modulus * std::pow(J, -5. / 3.) / 3. * (2. * trace<dim>(H) + H.squaredNorm());
   return stress;
 }
 

@@ -40,6 +40,12 @@ RigidPlane<dim>::RigidPlane(std::string obstacle_name, const SpatialVector<dim> 
 }
 
 template <int dim>
+std::shared_ptr<const Obstacle<dim>> RigidPlane<dim>::moved(const SpatialVector<dim> &shift) const
+{
+  return std::make_shared<RigidPlane<dim>>(this->name(), point + shift, normal);
+}
+
+template <int dim>
 typename Obstacle<dim>::Foot RigidPlane<dim>::find_foot(const SpatialVector<dim> &x) const
 {
   return {normal.dot(point - x), normal, SpatialTensor<dim>::Zero()};
@@ -59,6 +65,12 @@ RigidSphere<dim>::RigidSphere(std::string obstacle_name, const SpatialVector<dim
   if (!(radius > 0.) || !std::isfinite(radius))
     throw std::invalid_argument(fmt::format(
         "Obstacle '{}': the radius of a sphere must be positive, but is {}.", this->name(), radius));
+}
+
+template <int dim>
+std::shared_ptr<const Obstacle<dim>> RigidSphere<dim>::moved(const SpatialVector<dim> &shift) const
+{
+  return std::make_shared<RigidSphere<dim>>(this->name(), centre + shift, radius);
 }
 
 template <int dim>

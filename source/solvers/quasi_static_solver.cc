@@ -18,37 +18,28 @@ namespace
 /// Up to here sparse factorisation beats iteration (measured, doc/theory.md).
 constexpr unsigned int max_n_dofs_direct_3d = 30000, max_n_dofs_direct_2d = 200000;
 
-/// However stiff the contact, a larger share of a body's forces is never taken for round-off.
-constexpr double largest_round_off_share = 1e-4;
-
-/// After so many equilibria that new points of integration disturbed, the last one is taken.
-constexpr unsigned int max_renewal_rounds = 6;
 } // namespace
 
 template <int dim>
 QuasiStaticSolver<dim>::QuasiStaticSolver(const Discretization<dim> &the_discretization,
                                           const SupportedDofs<dim> &supported_dofs,
-                                          const std::vector<MaterialParameters> &the_materials,
-                                          const std::vector<bool> &is_body_held, SceneForces<dim> &the_forces,
-                                          const SurfaceMap<dim> *surface_map,
+                                          const Scene<dim> &the_scene, const std::vector<bool> &held_bodies,
+                                          const SceneForces<dim> &forces, const SurfaceMap<dim> *surface_map,
                                           const QuasiStaticParameters &quasi_static_parameters,
                                           RunTime &the_run_time)
-    : discretization(&the_discretization), supports(&supported_dofs), materials(&the_materials),
-      forces(&the_forces), map(surface_map), parameters(quasi_static_parameters), run_time(&the_run_time),
-      residual(the_discretization.make_vector()), support_forces(the_discretization.make_vector()),
+    : discretization(&the_discretization), supports(&supported_dofs), scene(&the_scene),
+      is_body_held(held_bodies), map(surface_map), parameters(quasi_static_parameters),
+      run_time(&the_run_time),
+      balance(the_discretization, supported_dofs, the_scene.n_bodies(), forces, surface_map, the_run_time),
       regularization(the_discretization.make_vector())
 {
-  terms.push_back(forces->elasticity);
-  terms.insert(terms.end(), forces->loads.begin(), forces->loads.end());
-  terms.insert(terms.end(), forces->contacts.begin(), forces->contacts.end());
-
   const unsigned int n_dofs = discretization->dof_handler.n_dofs();
   const bool is_direct = parameters.linear_solver == QuasiStaticParameters::LinearSolver::automatic
                              ? n_dofs <= (dim == 2 ? max_n_dofs_direct_2d : max_n_dofs_direct_3d)
                              : parameters.linear_solver == QuasiStaticParameters::LinearSolver::direct;
   linear_solver = is_direct ? make_direct_solver() : make_amg_solver(dim, 1e-8);
 
-  std::vector<double> volume(materials->size(), 0.);
+  std::vector<double> volume(scene->n_bodies(), 0.);
   const Vector nodal_volume = make_nodal_volume(*discretization);
   for (const OwnedNode<dim> &node : discretization->owned_nodes)
     volume[node.body] += nodal_volume.local_element(node.dofs[0]);
@@ -56,7 +47,7 @@ QuasiStaticSolver<dim>::QuasiStaticSolver(const Discretization<dim> &the_discret
   for (const OwnedNode<dim> &node : discretization->owned_nodes)
     if (!is_body_held[node.body])
       for (const unsigned int dof : node.dofs)
-        regularization.local_element(dof) = 1e-6 * (*materials)[node.body].youngs_modulus *
+        regularization.local_element(dof) = 1e-6 * scene->materials[node.body].youngs_modulus *
                                             std::pow(volume[node.body], -2. / dim) *
                                             nodal_volume.local_element(dof);
   if (map)
@@ -71,125 +62,9 @@ template <int dim>
 unsigned int QuasiStaticSolver<dim>::n_searches() const
 {
   unsigned int n = 0;
-  for (const auto &term : terms)
+  for (const auto &term : balance.terms())
     n += term->n_searches();
   return n;
-}
-
-template <int dim>
-bool QuasiStaticSolver<dim>::solve(double time, State &state,
-                                   const std::function<void(const NewtonReport &)> &report)
-{
-  const State before = state;
-  if (iterate(time, state, report))
-    return true;
-  state = before;
-  return false;
-}
-
-template <int dim>
-void QuasiStaticSolver<dim>::compute_residual(const State &state)
-{
-  residual = 0.;
-  scales.assign(materials->size(), 0.);
-  Vector force = discretization->make_vector();
-  for (const auto &term : terms)
-  {
-    const auto section = run_time->enter(term->name);
-    force = 0.;
-    term->update(state);
-    term->add_force(force);
-    discretization->collect(force);
-    residual += force;
-    for (const OwnedNode<dim> &node : discretization->owned_nodes)
-      for (const unsigned int dof : node.dofs)
-        scales[node.body] += force.local_element(dof) * force.local_element(dof);
-  }
-  dealii::Utilities::MPI::sum(scales, discretization->communicator(), scales);
-  for (double &scale : scales)
-    scale = std::sqrt(scale);
-  support_forces = 0.;
-  for (const unsigned int dof : supports->owned_dofs())
-    support_forces.local_element(dof) = -residual.local_element(dof);
-  supports->clear(residual);
-}
-
-template <int dim>
-std::vector<double> QuasiStaticSolver<dim>::body_norms(const Vector &values) const
-{
-  std::vector<double> norms(materials->size(), 0.);
-  for (const OwnedNode<dim> &node : discretization->owned_nodes)
-    for (const unsigned int dof : node.dofs)
-      norms[node.body] += values.local_element(dof) * values.local_element(dof);
-  dealii::Utilities::MPI::sum(norms, discretization->communicator(), norms);
-  for (double &norm : norms)
-    norm = std::sqrt(norm);
-  return norms;
-}
-
-template <int dim>
-void QuasiStaticSolver<dim>::judge_bodies(const State &state)
-{
-  compute_residual(state);
-  Vector elastic = discretization->make_vector();
-  forces->elasticity->add_magnitudes(elastic);
-  discretization->collect(elastic);
-  Vector stiffness = discretization->make_vector(), damping = discretization->make_vector();
-  for (const auto &contact : forces->contacts)
-    contact->add_row_sum_bounds(stiffness, damping);
-  for (const OwnedNode<dim> &node : discretization->owned_nodes)
-    for (unsigned int d = 0; d < dim; ++d)
-      stiffness.local_element(node.dofs[d]) *=
-          node.position[d] + state.displacement.local_element(node.dofs[d]);
-
-  const std::vector<double> norms = body_norms(residual), elastic_magnitudes = body_norms(elastic),
-                            contact_magnitudes = body_norms(stiffness);
-  constexpr double epsilon = std::numeric_limits<double>::epsilon();
-  relative_residuals.assign(norms.size(), 0.);
-  round_off_shares.assign(norms.size(), 0.);
-  for (unsigned int body = 0; body < norms.size(); ++body)
-  {
-    // Where all forces of a body are round-off there is nothing to judge.
-    const bool is_at_rest = norms[body] <= 4. * epsilon * elastic_magnitudes[body] ||
-                            scales[body] <= 4. * epsilon * contact_magnitudes[body];
-    if (!std::isfinite(norms[body] + scales[body]))
-      relative_residuals[body] = std::numeric_limits<double>::quiet_NaN();
-    else if (!is_at_rest)
-    {
-      relative_residuals[body] = norms[body] / scales[body];
-      round_off_shares[body] =
-          std::min(largest_round_off_share, epsilon * contact_magnitudes[body] / scales[body]);
-    }
-  }
-}
-
-template <int dim>
-double QuasiStaticSolver<dim>::relative_residual(const State &state)
-{
-  judge_bodies(state);
-  double largest = 0.;
-  for (const double relative : relative_residuals)
-    largest = std::isnan(relative) || std::isnan(largest) ? std::numeric_limits<double>::quiet_NaN()
-                                                          : std::max(largest, relative);
-  return largest;
-}
-
-template <int dim>
-bool QuasiStaticSolver<dim>::is_within(double tolerance, bool has_stagnated) const
-{
-  for (unsigned int body = 0; body < relative_residuals.size(); ++body)
-    if (relative_residuals[body] > std::max(tolerance, has_stagnated ? round_off_shares[body] : 0.))
-      return false;
-  return true;
-}
-
-template <int dim>
-double QuasiStaticSolver<dim>::total_energy() const
-{
-  double sum = 0.;
-  for (const auto &term : terms)
-    sum += term->energy();
-  return sum;
 }
 
 template <int dim>
@@ -226,7 +101,7 @@ void QuasiStaticSolver<dim>::rebuild_matrix()
   dealii::DoFTools::make_sparsity_pattern(
       discretization->dof_handler, pattern, constraints, false,
       dealii::Utilities::MPI::this_mpi_process(discretization->communicator()));
-  for (const auto &term : terms)
+  for (const auto &term : balance.terms())
     term->add_couplings(constraints, pattern);
   for (const dealii::types::global_dof_index dof : discretization->unused_dofs)
     pattern.add(dof, dof);
@@ -241,7 +116,7 @@ unsigned int QuasiStaticSolver<dim>::compute_increment(DrivenBy cause, Vector &i
 {
   assemble(cause);
   const auto section = run_time->enter("linear solver");
-  const auto &partitioner = *residual.get_partitioner();
+  const auto &partitioner = *balance.residual().get_partitioner();
   dealii::TrilinosWrappers::MPI::Vector solution(discretization->owned_dofs, discretization->communicator());
   const unsigned int n_iterations = linear_solver->solve(system.matrix, system.right_hand_side, solution);
   constraints.distribute(solution);
@@ -259,14 +134,14 @@ void QuasiStaticSolver<dim>::assemble(DrivenBy cause)
     rebuild_matrix();
   system.matrix = 0.;
   system.right_hand_side = 0.;
-  for (const auto &term : terms)
+  for (const auto &term : balance.terms())
     term->add_tangent(system);
-  const auto &partitioner = *residual.get_partitioner();
-  for (unsigned int i = 0; i < residual.locally_owned_size(); ++i)
+  const auto &partitioner = *balance.residual().get_partitioner();
+  for (unsigned int i = 0; i < balance.residual().locally_owned_size(); ++i)
   {
     const dealii::types::global_dof_index dof = partitioner.local_to_global(i);
     if (cause == DrivenBy::residual)
-      system.right_hand_side[dof] += residual.local_element(i);
+      system.right_hand_side[dof] += balance.residual().local_element(i);
     system.matrix.add(dof, dof, constraints.is_constrained(dof) ? 0. : regularization.local_element(i));
   }
   for (const dealii::types::global_dof_index dof : discretization->unused_dofs)
@@ -288,10 +163,10 @@ double QuasiStaticSolver<dim>::search_along(const Vector &increment, State &stat
   // Approximate Wolfe conditions (W. W. Hager, H. Zhang, 2005): the energy decides until it drowns in
   // round-off, then the slope does. Where the tangent is indefinite Newton's direction may lead uphill: then
   // its opposite leads down.
-  const double newton_slope = -(residual * increment);
+  const double newton_slope = -(balance.residual() * increment);
   const double direction = newton_slope > 0. ? -1. : 1.;
   const double slope = direction * newton_slope;
-  const double energy = total_energy();
+  const double energy = balance.energy();
   const unsigned int searches = n_searches();
   const Vector start = state.displacement;
   double step = limit_of_step(increment);
@@ -300,13 +175,13 @@ double QuasiStaticSolver<dim>::search_along(const Vector &increment, State &stat
     state.displacement = start;
     state.displacement.add(direction * step, increment);
     discretization->distribute(state.displacement);
-    compute_residual(state);
-    const double new_energy = total_energy();
+    balance.compute(state);
+    const double new_energy = balance.energy();
     if (!std::isfinite(new_energy))
       continue;
     if (n_searches() != searches)
       return step;
-    const double new_slope = -direction * (residual * increment);
+    const double new_slope = -direction * (balance.residual() * increment);
     const double round_off = 1e-10 * (std::abs(energy) + std::abs(new_energy));
     if (new_energy <= energy + 1e-4 * step * slope ||
         (new_energy <= energy + round_off && std::abs(new_slope) <= 0.9 * std::abs(slope)))
@@ -322,7 +197,7 @@ void QuasiStaticSolver<dim>::move_supports(double time, State &state)
   const double old_time = state.time;
   state.time = time;
   const bool do_supports_move = make_constraints(old_time, time);
-  compute_residual(state);
+  balance.compute(state);
   if (!do_supports_move)
     return;
   Vector increment = discretization->make_vector();
@@ -336,54 +211,90 @@ void QuasiStaticSolver<dim>::move_supports(double time, State &state)
 }
 
 template <int dim>
-bool QuasiStaticSolver<dim>::has_converged(const State &state, double error, double error_before)
+double QuasiStaticSolver<dim>::renew_points(const State &state)
 {
-  const bool has_stagnated = error > 0.5 * error_before;
-  if (!is_within(parameters.tolerance, has_stagnated))
-    return false;
-  // Points of integration follow the bodies: what was found with the old ones must be an equilibrium with the
-  // new.
-  for (const auto &term : terms)
+  for (const auto &term : balance.terms())
     term->renew(state);
-  residual_after_renewal = relative_residual(state);
-  return is_within(10. * parameters.tolerance, has_stagnated) || ++n_renewal_rounds == max_renewal_rounds;
+  return balance.judge(state);
 }
 
 template <int dim>
-bool QuasiStaticSolver<dim>::iterate(double time, State &state,
-                                     const std::function<void(const NewtonReport &)> &report)
+bool QuasiStaticSolver<dim>::find_minimum(State &state, NewtonReport &progress, const Report &report)
 {
-  for (const auto &term : terms)
-    term->renew(state);
   Vector increment = discretization->make_vector();
-  NewtonReport progress;
   progress.residual = std::numeric_limits<double>::max();
-  n_renewal_rounds = 0;
+  for (unsigned int iteration = 0;; ++iteration, ++progress.iteration)
+  {
+    const double residual_before = progress.residual;
+    progress.residual = balance.judge(state);
+    report(progress);
+    if (!std::isfinite(progress.residual))
+      give_up("an element was turned inside out");
+    const bool has_stagnated = progress.residual > 0.5 * residual_before;
+    if (balance.is_within(parameters.tolerance, has_stagnated))
+      return has_stagnated;
+    if (iteration == parameters.max_iterations)
+      give_up(fmt::format("Newton's method only reached a relative residual of {:.3g}", progress.residual));
+    progress.linear_iterations = compute_increment(DrivenBy::residual, increment);
+    progress.step_length = search_along(increment, state);
+    if (progress.step_length == 0.)
+      give_up("no step along Newton's direction lowers the energy");
+    ++total_iterations;
+  }
+}
+
+template <int dim>
+void QuasiStaticSolver<dim>::find_equilibrium(double time, State &state, const Report &report)
+{
+  for (const auto &term : balance.terms())
+    term->renew(state);
+  move_supports(time, state);
+  NewtonReport progress;
+  double disturbance_before = std::numeric_limits<double>::max();
+  for (;;)
+  {
+    // Points of integration follow the bodies: what was found with the old ones must be an equilibrium with
+    // the new.
+    const bool has_stagnated = find_minimum(state, progress, report);
+    disturbance = renew_points(state);
+    if (balance.is_within(10. * parameters.tolerance, has_stagnated))
+    {
+      disturbance = 0.;
+      return;
+    }
+    if (disturbance > 0.5 * disturbance_before)
+      break;
+    disturbance_before = disturbance;
+  }
+  // Points and bodies follow each other around: let the points be.
+  find_minimum(state, progress, report);
+}
+
+template <int dim>
+void QuasiStaticSolver<dim>::give_up(const std::string &why) const
+{
+  const unsigned int body = balance.worst_body();
+  std::string text = fmt::format("{}; body '{}' is farthest from equilibrium", why, scene->body_names[body]);
+  if (!is_body_held[body] && !balance.is_touched(body))
+    text += ", and nothing touches it";
+  else if (balance.round_off_share(body) > parameters.tolerance)
+    text += fmt::format(", where round-off alone may be {:.1g} of the forces", balance.round_off_share(body));
+  throw NumericalError(text);
+}
+
+template <int dim>
+bool QuasiStaticSolver<dim>::solve(double time, State &state, const Report &report)
+{
+  const State before = state;
   try
   {
-    move_supports(time, state);
-    for (;; ++progress.iteration)
-    {
-      const double residual_before = progress.residual;
-      progress.residual = relative_residual(state);
-      report(progress);
-      if (!std::isfinite(progress.residual))
-        throw NumericalError("an element was turned inside out");
-      if (has_converged(state, progress.residual, residual_before))
-        return true;
-      if (progress.iteration == parameters.max_iterations)
-        throw NumericalError(fmt::format("Newton's method only reached a relative residual of {:.3g}",
-                                         relative_residual(state)));
-      progress.linear_iterations = compute_increment(DrivenBy::residual, increment);
-      progress.step_length = search_along(increment, state);
-      if (progress.step_length == 0.)
-        throw NumericalError("no step along Newton's direction lowers the energy");
-      ++total_iterations;
-    }
+    find_equilibrium(time, state, report);
+    return true;
   }
   catch (const NumericalError &error)
   {
     reason = error.complaint().what;
+    state = before;
     return false;
   }
 }

@@ -53,6 +53,24 @@ TYPED_TEST(ObstacleTest, NormalAndHessianAreTheDerivativesOfDepth)
     }
 }
 
+TYPED_TEST(ObstacleTest, MovesAsAWhole)
+{
+  constexpr int dim = TypeParam::value;
+  RandomVectors<dim> random(5);
+  const SpatialVector<dim> shift = random.vector(3.);
+  for (const auto &obstacle : make_obstacles<dim>())
+  {
+    const auto moved = obstacle->moved(shift);
+    EXPECT_EQ(moved->name(), obstacle->name());
+    for (unsigned int trial = 0; trial < 5; ++trial)
+    {
+      const SpatialVector<dim> x = random.vector(1.);
+      EXPECT_NEAR(moved->find_foot(x + shift).depth, obstacle->find_foot(x).depth, 1e-14);
+      EXPECT_LT((moved->find_foot(x + shift).normal - obstacle->find_foot(x).normal).norm(), 1e-13);
+    }
+  }
+}
+
 TYPED_TEST(ObstacleTest, BatchAgreesWithSinglePoints)
 {
   constexpr int dim = TypeParam::value;

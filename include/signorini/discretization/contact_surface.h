@@ -34,6 +34,9 @@ struct Facet
 template <int dim>
 struct ContactSurface
 {
+  /// All positions are from here [m]: near the bodies, so that depths keep their digits in scenes far from
+  /// the origin of the coordinates.
+  SpatialVector<dim> origin = SpatialVector<dim>::Zero();
   std::vector<SpatialVector<dim>> reference_positions; ///< one a node, undeformed [m]
   std::vector<Facet<dim>> facets;
   unsigned int n_bodies = 0;

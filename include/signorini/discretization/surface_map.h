@@ -40,6 +40,7 @@ public:
 
 private:
   void number_nodes(const std::vector<std::vector<double>> &packed_facets, unsigned int this_rank);
+  void move_origin();
   void gather_constraints();
 
   const Discretization<dim> *discretization;

@@ -45,15 +45,15 @@ private:
 
   Gradient displacement_gradient(const CellGeometry &cell, unsigned int point, const double *u) const;
 
-  /// Fills gradients and volume ratios of all points, and the pressure and modulus that act at each.
+  /// Fills gradients and volume strains of all points, and the pressure and modulus that act at each.
   void evaluate_volume(const CellGeometry &cell, const double *u, Order order);
 
   Law law;
   bool uses_mean_volume;
   std::vector<Gradient> gradients;
-  std::vector<VolumeRatio<dim>> ratios;
+  std::vector<VolumeStrain<dim>> volume_strains;
   std::vector<VolumeResponse> volumes; ///< one a point
   double cell_volume = 0.;
-  std::vector<double> mean_ratio_gradient; ///< Σ_q w_q ∂v_q/∂u [node][component]
+  std::vector<double> mean_strain_gradient; ///< Σ_q w_q ∂e_q/∂u [node][component]
 };
 } // namespace signorini

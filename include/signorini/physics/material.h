@@ -5,10 +5,12 @@
 
 namespace signorini
 {
-/// Laws in two parts, ψ(H) = ψ_shape(H) + U(v(H)), of the displacement gradient H_ij = ∂u_i/∂X_j: one of the
-/// change of shape, one of the volume ratio v. Elements of degree 1 take v as its mean over the cell, which
-/// keeps them from locking; the energy stays an energy. In 2-D the strain is plane: H_33 = 0 in formulas of
-/// three dimensions.
+/// Laws in two parts, ψ(H) = ψ_shape(H) + U(e(H)), of the displacement gradient H_ij = ∂u_i/∂X_j: one of the
+/// change of shape, one of the volume strain e = v − 1, with v the volume ratio. Elements of degree 1 take e
+/// as its mean over the cell, which keeps them from locking; the energy stays an energy. In 2-D the strain is
+/// plane: H_33 = 0 in formulas of three dimensions.
+///
+/// Stresses keep their digits however small the strain is: nothing is subtracted from 1.
 ///
 /// Index pairs (i, j) are stored as i·dim + j.
 template <int dim>
@@ -19,16 +21,16 @@ struct ShapeResponse
   Eigen::Matrix<double, dim * dim, dim * dim> tangent; ///< ∂²ψ_shape/∂H∂H [Pa]; only if asked for
 };
 
-/// v, ∂v/∂H and ∂²v/∂H∂H.
+/// e, ∂e/∂H and ∂²e/∂H∂H.
 template <int dim>
-struct VolumeRatio
+struct VolumeStrain
 {
-  double value = 1.;
+  double value = 0.;
   Eigen::Matrix<double, dim * dim, 1> gradient;
   Eigen::Matrix<double, dim * dim, dim * dim> hessian; ///< only if asked for
 };
 
-/// U, U' and U'' at a volume ratio.
+/// U, U' and U'' at a volume strain.
 struct VolumeResponse
 {
   double energy = 0.;   ///< [J/m³]
@@ -42,7 +44,7 @@ enum class Order
   second ///< tangents too
 };
 
-/// Small strain: ψ_shape = μ |dev ε|², v = 1 + tr ε, U = κ/2 (v − 1)².
+/// Small strain: ψ_shape = μ |dev ε|², e = tr ε, U = κ/2 e².
 template <int dim>
 struct LinearElastic
 {
@@ -51,14 +53,14 @@ struct LinearElastic
 
   using Gradient = Eigen::Matrix<double, dim, dim>;
   void shape(const Gradient &H, Order order, ShapeResponse<dim> &response) const;
-  void volume_ratio(const Gradient &H, Order order, VolumeRatio<dim> &ratio) const;
-  VolumeResponse volume(double ratio) const;
+  void volume_strain(const Gradient &H, Order order, VolumeStrain<dim> &strain) const;
+  VolumeResponse volume(double strain) const;
 
   /// True stress with its out-of-plane component; `pressure` is U' [Pa].
   Eigen::Matrix3d cauchy_stress(const Gradient &H, double pressure) const;
 };
 
-/// Compressible neo-Hookean, with F = I + H, J = det F: ψ_shape = μ/2 (J^(−2/3) |F|² − 3), v = J,
+/// Compressible neo-Hookean, with F = I + H, J = det F: ψ_shape = μ/2 (J^(−2/3) |F|² − 3), v = J = 1 + e,
 /// U = κ/2 ((v² − 1)/2 − ln v). (J. C. Simo, R. L. Taylor, K. S. Pister, 1985.)
 /// Not a number where J ≤ 0: solvers see it in the energy.
 template <int dim>
@@ -69,8 +71,8 @@ struct NeoHookean
 
   using Gradient = Eigen::Matrix<double, dim, dim>;
   void shape(const Gradient &H, Order order, ShapeResponse<dim> &response) const;
-  void volume_ratio(const Gradient &H, Order order, VolumeRatio<dim> &ratio) const;
-  VolumeResponse volume(double ratio) const;
+  void volume_strain(const Gradient &H, Order order, VolumeStrain<dim> &strain) const;
+  VolumeResponse volume(double strain) const;
 
   /// True stress with its out-of-plane component; `pressure` is U' [Pa].
   Eigen::Matrix3d cauchy_stress(const Gradient &H, double pressure) const;

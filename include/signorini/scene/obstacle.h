@@ -3,6 +3,7 @@
 
 #include "signorini/base/spatial_vector.h"
 
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -28,6 +29,10 @@ public:
   Obstacle &operator=(const Obstacle &) = delete;
 
   const std::string &name() const { return name_; }
+
+  /// The same obstacle, moved by `shift`.
+  virtual std::shared_ptr<const Obstacle> moved(const SpatialVector<dim> &shift) const = 0;
+
   virtual Foot find_foot(const SpatialVector<dim> &x) const = 0;
 
   /// Overwrites `feet` with one foot a point. An obstacle that meets many points should override it, so that
@@ -49,6 +54,7 @@ public:
   /// Throws std::invalid_argument if it is zero or not finite.
   RigidPlane(std::string obstacle_name, const SpatialVector<dim> &plane_point,
              const SpatialVector<dim> &outward_normal);
+  std::shared_ptr<const Obstacle<dim>> moved(const SpatialVector<dim> &shift) const override;
   Foot find_foot(const SpatialVector<dim> &x) const override;
   void find_feet(const std::vector<SpatialVector<dim>> &points, std::vector<Foot> &feet) const override;
 
@@ -67,6 +73,7 @@ public:
 
   /// Throws std::invalid_argument unless the radius is positive and finite.
   RigidSphere(std::string obstacle_name, const SpatialVector<dim> &sphere_centre, double sphere_radius);
+  std::shared_ptr<const Obstacle<dim>> moved(const SpatialVector<dim> &shift) const override;
   Foot find_foot(const SpatialVector<dim> &x) const override;
   void find_feet(const std::vector<SpatialVector<dim>> &points, std::vector<Foot> &feet) const override;
 

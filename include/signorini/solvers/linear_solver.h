@@ -24,8 +24,7 @@ public:
   virtual std::string name() const = 0;
 };
 
-/// Sparse symmetric factorisation by MUMPS, through PETSc: Trilinos' interface takes matrices of one rank
-/// only.
+/// Sparse symmetric factorisation by MUMPS, through PETSc.
 std::unique_ptr<LinearSolver> make_direct_solver();
 
 /// Conjugate gradients with hypre's BoomerAMG, whose iteration counts do not grow with the contact stiffness.

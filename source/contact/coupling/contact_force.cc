@@ -19,15 +19,27 @@ std::vector<dealii::types::global_dof_index> collect_dofs(const SurfaceMap<dim> 
     dofs.insert(dofs.end(), map.node_dofs(node).begin(), map.node_dofs(node).end());
   return dofs;
 }
+
+/// The obstacles as seen from `origin`.
+template <int dim>
+typename contact::ContactPotential<dim>::Obstacles
+move_to(const SpatialVector<dim> &origin, const typename contact::ContactPotential<dim>::Obstacles &obstacles)
+{
+  typename contact::ContactPotential<dim>::Obstacles moved;
+  for (const auto &obstacle : obstacles)
+    moved.push_back(obstacle->moved(-origin));
+  return moved;
+}
 } // namespace
 
 template <int dim>
 ContactForce<dim>::ContactForce(const std::string &term_name, bool is_an_external_term,
                                 const SurfaceMap<dim> &surface_map,
-                                typename contact::ContactPotential<dim>::Obstacles obstacles,
+                                const typename contact::ContactPotential<dim>::Obstacles &obstacles,
                                 const contact::PotentialSettings &settings, const MPI_Comm &mpi_communicator)
     : ForceTerm(term_name, Kind::contact, is_an_external_term), map(&surface_map),
-      potential(surface_map.surface(), std::move(obstacles), settings), communicator(mpi_communicator)
+      potential(surface_map.surface(), move_to<dim>(surface_map.surface().origin, obstacles), settings),
+      communicator(mpi_communicator)
 {
 }
 
@@ -158,6 +170,15 @@ void ContactForce<dim>::add_row_sum_bounds(Vector &stiffness, Vector &damping) c
 }
 
 template <int dim>
+std::vector<contact::ContactSample<dim>> ContactForce<dim>::samples() const
+{
+  std::vector<contact::ContactSample<dim>> samples = potential.samples();
+  for (contact::ContactSample<dim> &sample : samples)
+    sample.position += map->surface().origin;
+  return samples;
+}
+
+template <int dim>
 contact::ContactMeasures<dim> ContactForce<dim>::measure() const
 {
   using dealii::Utilities::MPI::max;
@@ -170,6 +191,7 @@ contact::ContactMeasures<dim> ContactForce<dim>::measure() const
   MPI_Bcast(&total.deepest_facet, 1, MPI_UNSIGNED, static_cast<int>(deepest_rank), communicator);
   MPI_Bcast(total.deepest_position.data(), dim, MPI_DOUBLE, static_cast<int>(deepest_rank), communicator);
   total.max_penetration_over_thickness = deepest;
+  total.deepest_position += map->surface().origin;
   total.max_penetration = max(total.max_penetration, communicator);
   total.max_pressure = max(total.max_pressure, communicator);
   total.max_stiffness = max(total.max_stiffness, communicator);

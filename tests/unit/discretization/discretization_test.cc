@@ -97,7 +97,7 @@ TYPED_TEST(Discretizations, SurfaceNodesOfABallLieOnItsSphere)
   for (unsigned int node = 0; node < surface.n_nodes(); ++node)
     if (!built.discretization.hanging_constraints.is_constrained(built.map.node_dofs(node)[0]))
     {
-      EXPECT_NEAR((surface.reference_positions[node] - centre).norm(), 1.4, 1e-12);
+      EXPECT_NEAR((surface.origin + surface.reference_positions[node] - centre).norm(), 1.4, 1e-12);
       ++n_checked;
     }
   EXPECT_GT(n_checked, 8u);

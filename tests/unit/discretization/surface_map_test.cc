@@ -32,7 +32,8 @@ struct SurfaceSums
               contact::evaluate_facet_frame(contact::gather_nodes(facet, surface.reference_positions), xi);
           area += quadrature.weight(q) * frame.area_normal.norm();
           area_normal += quadrature.weight(q) * frame.area_normal;
-          do_normals_point_out = do_normals_point_out && frame.area_normal.dot(frame.position - centre) > 0.;
+          do_normals_point_out =
+              do_normals_point_out && frame.area_normal.dot(surface.origin + frame.position - centre) > 0.;
         }
   }
 };
@@ -174,7 +175,8 @@ TYPED_TEST(SurfaceMaps, NodesStandWhereTheirDofsDo)
     for (unsigned int d = 0; d < dim; ++d)
       positions.local_element(node.dofs[d]) = node.position[d];
   const auto gathered = built.map.gather(positions);
+  const ContactSurface<dim> &surface = built.map.surface();
   for (unsigned int node = 0; node < gathered.size(); ++node)
-    EXPECT_LT((gathered[node] - built.map.surface().reference_positions[node]).norm(), 1e-15);
+    EXPECT_LT((gathered[node] - surface.origin - surface.reference_positions[node]).norm(), 1e-15);
 }
 } // namespace

@@ -55,10 +55,10 @@ public:
     return response;
   }
 
-  VolumeRatio<n> ratio(const Gradient &gradient) const
+  VolumeStrain<n> strain(const Gradient &gradient) const
   {
-    VolumeRatio<n> result;
-    law.volume_ratio(gradient, Order::second, result);
+    VolumeStrain<n> result;
+    law.volume_strain(gradient, Order::second, result);
     return result;
   }
 };
@@ -92,13 +92,13 @@ TYPED_TEST(Material, TangentIsGradientOfStressAndSymmetric)
   EXPECT_LT((here.tangent - here.tangent.transpose()).norm(), 1e-14 * here.tangent.norm());
 }
 
-TYPED_TEST(Material, VolumeRatioAndItsDerivatives)
+TYPED_TEST(Material, VolumeStrainAndItsDerivatives)
 {
-  const auto here = this->ratio(this->general);
+  const auto here = this->strain(this->general);
   for (int i = 0; i < here.gradient.size(); ++i)
   {
-    const auto forth = this->ratio(this->moved(i, this->step)),
-               back = this->ratio(this->moved(i, -this->step));
+    const auto forth = this->strain(this->moved(i, this->step)),
+               back = this->strain(this->moved(i, -this->step));
     EXPECT_NEAR(here.gradient[i], (forth.value - back.value) / (2. * this->step), 1e-7);
     EXPECT_LT((here.hessian.col(i) - (forth.gradient - back.gradient) / (2. * this->step)).norm(), 1e-7);
   }
@@ -107,40 +107,40 @@ TYPED_TEST(Material, VolumeRatioAndItsDerivatives)
 
 TYPED_TEST(Material, VolumeResponseAndItsDerivatives)
 {
-  for (const double v : {.8, 1., 1.3})
+  for (const double e : {-.2, 0., .3})
   {
-    const VolumeResponse here = this->law.volume(v), forth = this->law.volume(v + this->step),
-                         back = this->law.volume(v - this->step);
+    const VolumeResponse here = this->law.volume(e), forth = this->law.volume(e + this->step),
+                         back = this->law.volume(e - this->step);
     EXPECT_NEAR(here.pressure, (forth.energy - back.energy) / (2. * this->step), 1e-7 * kappa);
     EXPECT_NEAR(here.modulus, (forth.pressure - back.pressure) / (2. * this->step), 1e-7 * kappa);
   }
-  EXPECT_NEAR(this->law.volume(1.).energy, 0., 1e-15);
-  EXPECT_NEAR(this->law.volume(1.).pressure, 0., 1e-15);
-  EXPECT_NEAR(this->law.volume(1.).modulus, kappa, 1e-14);
+  EXPECT_NEAR(this->law.volume(0.).energy, 0., 1e-15);
+  EXPECT_NEAR(this->law.volume(0.).pressure, 0., 1e-15);
+  EXPECT_NEAR(this->law.volume(0.).modulus, kappa, 1e-14);
 }
 
 TYPED_TEST(Material, SmallStrainIsLambdaMu)
 {
   constexpr int dim = TypeParam::dim;
-  const auto H = (1e-7 * this->general).eval();
+  const auto H = (1e-12 * this->general).eval();
   const auto strain = (.5 * (H + H.transpose())).eval();
   Eigen::Matrix3d expected = lambda * H.trace() * Eigen::Matrix3d::Identity();
   expected.template topLeftCorner<dim, dim>() += 2. * mu * strain;
-  const double pressure = this->law.volume(this->ratio(H).value).pressure;
-  EXPECT_LT((this->law.cauchy_stress(H, pressure) - expected).norm(), 1e-6 * expected.norm());
+  const double pressure = this->law.volume(this->strain(H).value).pressure;
+  EXPECT_LT((this->law.cauchy_stress(H, pressure) - expected).norm(), 1e-11 * expected.norm());
 }
 
 TYPED_TEST(Material, CauchyStressIsPushedForwardFirstStress)
 {
   constexpr int dim = TypeParam::dim;
   const auto shape = this->shape(this->general);
-  const auto ratio = this->ratio(this->general);
-  const double pressure = this->law.volume(ratio.value).pressure;
+  const auto strain = this->strain(this->general);
+  const double pressure = this->law.volume(strain.value).pressure;
   using Matrix = Eigen::Matrix<double, dim, dim, Eigen::RowMajor>;
   Matrix first = Eigen::Map<const Matrix>(
-      Eigen::Matrix<double, dim * dim, 1>(shape.stress + pressure * ratio.gradient).data());
+      Eigen::Matrix<double, dim * dim, 1>(shape.stress + pressure * strain.gradient).data());
   if (std::is_same_v<typename TypeParam::Law, NeoHookean<dim>>)
-    first = (first * (Matrix::Identity() + this->general).transpose() / ratio.value).eval();
+    first = (first * (Matrix::Identity() + this->general).transpose() / (1. + strain.value)).eval();
   const Eigen::Matrix3d stress = this->law.cauchy_stress(this->general, pressure);
   EXPECT_LT((stress.template topLeftCorner<dim, dim>() - first).norm(), 1e-13 * first.norm());
   EXPECT_LT((stress - stress.transpose()).norm(), 1e-13 * stress.norm());
@@ -171,7 +171,7 @@ TEST(LinearElasticLaw, UniaxialStressFollowsYoungsModulus)
   const double strain = .01;
   const Eigen::Matrix3d H = Eigen::Vector3d(strain, -nu * strain, -nu * strain).asDiagonal();
   const LinearElastic<3> law{mu, kappa};
-  const Eigen::Matrix3d stress = law.cauchy_stress(H, law.volume(1. + H.trace()).pressure);
+  const Eigen::Matrix3d stress = law.cauchy_stress(H, law.volume(H.trace()).pressure);
   const Eigen::Matrix3d expected = Eigen::Vector3d(E * strain, 0., 0.).asDiagonal();
   EXPECT_LT((stress - expected).norm(), 1e-15);
 }
@@ -184,7 +184,7 @@ TEST(NeoHookeanLaw, UniformDilatationIsPurePressure)
   ShapeResponse<3> response;
   law.shape(H, Order::first, response);
   EXPECT_NEAR(response.energy, 0., 1e-14);
-  const Eigen::Matrix3d stress = law.cauchy_stress(H, law.volume(J).pressure);
+  const Eigen::Matrix3d stress = law.cauchy_stress(H, law.volume(J - 1.).pressure);
   EXPECT_LT((stress - .5 * kappa * (J - 1. / J) * Eigen::Matrix3d::Identity()).norm(), 1e-13);
 }
 

@@ -15,7 +15,7 @@ struct StaticRun
 {
   explicit StaticRun(BuiltScene<dim> &built_scene, const QuasiStaticParameters &parameters = {})
       : built(built_scene),
-        solver(built.discretization, built.supports, built.scene.materials,
+        solver(built.discretization, built.supports, built.scene,
                find_held_bodies(built.scene, built.supports), built.forces,
                built.forces.contacts.empty() ? nullptr : &built.map, parameters, built.run_time)
   {
@@ -110,7 +110,7 @@ TYPED_TEST(QuasiStatic, NeoHookeanBlockUnderSupportsMatchesItsLaw)
   const NeoHookean<dim> law{1000. / 2.6, 1000. / 1.2};
   SpatialTensor<dim> H = SpatialTensor<dim>::Zero();
   H(dim - 1, dim - 1) = -.2;
-  const Eigen::Matrix3d expected = law.cauchy_stress(H, law.volume(.8).pressure);
+  const Eigen::Matrix3d expected = law.cauchy_stress(H, law.volume(-.2).pressure);
   for (const Eigen::Matrix3d &stress : built.forces.elasticity->stresses())
     EXPECT_LT((stress - expected).norm(), 1e-7 * expected.norm());
 }
@@ -145,6 +145,60 @@ TYPED_TEST(QuasiStatic, BodyHeldOnlyByContactRestsOnTheFloor)
       EXPECT_NEAR(measures.max_penetration, weight / stiffness, 1e-6 * weight / stiffness);
     }
   }
+}
+
+TYPED_TEST(QuasiStatic, CubeRestsFarFromTheOriginOfTheCoordinates)
+{
+  // A million lengths away positions are only known to a hundredth of the depth of the contact.
+  constexpr int dim = TypeParam::dim;
+  BodyParameters block = make_box("block", {1., 1., 1.}, {2, 2, 2});
+  block.material = make_material(Model::linear_elastic, 0.);
+  block.placement.shift[dim - 1] = 1048576.;
+  BuiltScene<dim> built({block}, TypeParam::degree,
+                        [](Parameters &p)
+                        {
+                          p.gravity[dim - 1] = -4e-4;
+                          p.obstacles = {make_floor<dim>(1048576.)};
+                        });
+  add_loads(built);
+  const auto contact = built.add_contact(make_settings(contact::Integration::face_segments));
+  StaticRun<dim> run(built);
+  ASSERT_TRUE(run.solve(1.)) << run.solver.failure();
+  EXPECT_NEAR(contact->measure().resultants[0][dim - 1], 8e-4, 8e-11);
+}
+
+TYPED_TEST(QuasiStatic, FaintLoadIsNotTakenForRoundOff)
+{
+  constexpr int dim = TypeParam::dim;
+  BodyParameters block = make_box("block", {1., 1., 1.}, {2, 2, 2});
+  block.material = make_material(Model::neo_hookean, 0.);
+  block.supports = symmetry_supports<dim>();
+  block.loads = {make_pressure<dim>("1e-20")};
+  BuiltScene<dim> built({block}, TypeParam::degree);
+  add_loads(built);
+  StaticRun<dim> run(built);
+  ASSERT_TRUE(run.solve(1.)) << run.solver.failure();
+  EXPECT_NEAR(built.state.displacement.linfty_norm(), 1e-23, 1e-30);
+}
+
+TYPED_TEST(QuasiStatic, FailureNamesTheBodyThatNothingTouches)
+{
+  constexpr int dim = TypeParam::dim;
+  BodyParameters block = make_box("block", {1., 1., 1.}, {1, 1, 1});
+  block.placement.shift[dim - 1] = 3.;
+  BuiltScene<dim> built({block}, TypeParam::degree,
+                        [](Parameters &p)
+                        {
+                          p.gravity[dim - 1] = 4.; // away from the floor
+                          p.obstacles = {make_floor<dim>(0.)};
+                        });
+  add_loads(built);
+  built.add_contact(make_settings(contact::Integration::face_quadrature));
+  StaticRun<dim> run(built);
+  ASSERT_FALSE(run.solve(1.));
+  EXPECT_NE(run.solver.failure().find("'block' is farthest from equilibrium, and nothing touches it"),
+            std::string::npos)
+      << run.solver.failure();
 }
 
 TYPED_TEST(QuasiStatic, LoadStepThatFailsRestoresTheState)

@@ -15,7 +15,7 @@ public:
   /// `is_external`: contact with obstacles, which changes the momentum of the bodies. `map` must outlive this
   /// object.
   ContactForce(const std::string &name, bool is_external, const SurfaceMap<dim> &map,
-               typename contact::ContactPotential<dim>::Obstacles obstacles,
+               const typename contact::ContactPotential<dim>::Obstacles &obstacles,
                const contact::PotentialSettings &settings, const MPI_Comm &communicator);
 
   double renew(const State &state) override;
@@ -44,7 +44,7 @@ public:
   std::vector<double> nodal_areas() const;
 
   /// This rank's points.
-  std::vector<contact::ContactSample<dim>> samples() const { return potential.samples(); }
+  std::vector<contact::ContactSample<dim>> samples() const;
 
 private:
   std::vector<SpatialVector<dim>> positions(const State &state) const;
