@@ -188,11 +188,20 @@ template <int dim>
 void Simulation<dim>::print_results()
 {
   if (results.has_contact)
+  {
+    const std::string form = "Contact {}: largest pressure {:.6g} Pa, penetration/h {:.3g}, area {:.6g}";
     progress.say(results.contact.n_active > 0
-                     ? fmt::format("Contact: largest pressure {:.6g} Pa, penetration/h {:.3g}, area {:.6g}",
-                                   results.contact.max_pressure,
+                     ? fmt::format(form, "at the end", results.contact.max_pressure,
                                    results.contact.max_penetration_over_thickness, results.contact.area)
-                     : "Contact: nothing touches at the end of the run");
+                     : "Contact at the end: nothing touches");
+    progress.say(fmt::format(form, "in the whole run", results.max_pressure,
+                             results.max_penetration_over_thickness, results.max_area));
+  }
+  for (const ContactResultant &resultant : results.resultants)
+    if (resultant.force != std::array<double, 3>{})
+      progress.say(fmt::format("Contact force on {} from {} at the end: ({:.6g})", resultant.on,
+                               resultant.from,
+                               fmt::join(resultant.force.begin(), resultant.force.begin() + dim, ", ")));
   if (results.has_ledger)
     progress.say(
         fmt::format("Energy ledger open by {:.2e} at most; momentum drift {:.2e} linear, {:.2e} angular",
