@@ -17,6 +17,7 @@ from vtk.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 
 sys.path.insert(0, str(pathlib.Path(__file__).parent))
 import obstacles
+from surface import outer_surface
 
 SIZE = (1400, 1050)
 COLOUR_MAP = "YlGnBu"
@@ -114,12 +115,9 @@ def colour_table(upper):
 
 def actors_of(data, field, table, upper, flat):
     """The coloured surface, its mesh where that is not too fine to see, and its sharp edges."""
-    surface = vtk.vtkDataSetSurfaceFilter()
-    surface.SetInputData(data)
-    surface.SetNonlinearSubdivisionLevel(2)
-    surface.Update()
+    surface = outer_surface(data)
     mapper = vtk.vtkPolyDataMapper()
-    mapper.SetInputConnection(surface.GetOutputPort())
+    mapper.SetInputData(surface)
     if field and data.GetPointData().GetArray(field):
         mapper.SetScalarModeToUsePointFieldData()
         mapper.SelectColorArray(field)
@@ -137,15 +135,16 @@ def actors_of(data, field, table, upper, flat):
     look.SetAmbient(0.42)
     look.SetDiffuse(0.62)
     look.SetSpecular(0.08)
-    if surface.GetOutput().GetNumberOfCells() <= 12000:
+    if surface.GetNumberOfCells() <= 12000:
         look.EdgeVisibilityOn()
         look.SetEdgeColor(0.45, 0.52, 0.58)
         look.SetLineWidth(0.6)
     edges = vtk.vtkFeatureEdges()
-    edges.SetInputConnection(surface.GetOutputPort())
+    edges.SetInputData(surface)
     edges.SetFeatureAngle(50)
     edges.ColoringOff()
     edges.ManifoldEdgesOff()
+    edges.SetBoundaryEdges(flat)
     edge_mapper = vtk.vtkPolyDataMapper()
     edge_mapper.SetInputConnection(edges.GetOutputPort())
     edge_mapper.ScalarVisibilityOff()
