@@ -9,6 +9,7 @@ import matplotlib.pyplot as plt
 from matplotlib import ticker
 
 INK, GRID = "#27323f", "#e3e8ee"
+MAX_FORCES = 8  # curves of forces in one plot
 COLOURS = ["#2166ac", "#d6604d", "#4d9f6a", "#e6a23c", "#7b5ea7", "#5b6b7b"]
 STYLE = {
     "figure.figsize": (6.4, 3.7), "figure.dpi": 150, "figure.constrained_layout.use": True,
@@ -37,18 +38,19 @@ def contact_pressure(run):
         axes.fill_between(radius, exact, color=INK, alpha=0.05)
     axes.plot(table["radius"], table["pressure"], "o", color=COLOURS[1], markersize=3.6, markeredgewidth=0,
               alpha=0.8, label="computed")
-    axes.set(title="Contact pressure", xlabel=table.label("radius"), ylabel=table.label("pressure"))
+    axes.set(title="Contact pressure (per undeformed area)", xlabel=table.label("radius"), ylabel=table.label("pressure"))
     axes.set_xlim(left=min(0.0, *finite(table["radius"])))
     axes.legend()
     return figure
 
 
 def energy_ledger(run):
-    """All energies with their sum, and below it the residual of the ledger."""
+    """All energies with their sum, and below it the residual of the ledger where there is one."""
     table = run.statistics
-    parts = [name for name in ("kinetic energy", "elastic energy", "contact energy", "dissipated")
+    progress = axis_of(table)
+    parts = [name for name in ("kinetic energy", "elastic energy", "contact energy", "dissipated since the start")
              if table.has_values(name) and any(finite(table[name]))]
-    if not parts or not moves(table):
+    if not parts or not progress:
         return None
     residual = table.has_values("ledger residual")
     if residual:
@@ -57,66 +59,77 @@ def energy_ledger(run):
         figure, axes = plt.subplots()
         below = axes
     for name in parts:
-        axes.plot(table["time"], table[name], label=name)
-    axes.plot(table["time"], [sum(values) for values in zip(*(table[name] for name in parts))], color=INK,
+        axes.plot(table[progress], table[name], label=name.removesuffix(" since the start"), **dots(table))
+    axes.plot(table[progress], [sum(values) for values in zip(*(table[name] for name in parts))], color=INK,
               linewidth=1.1, linestyle=(0, (5, 2)), label="sum")
-    if table.has_values("work") and any(finite(table["work"])):
-        axes.plot(table["time"], table["work"], color="#9aa7b4", linewidth=1.1, linestyle=":",
-                  label="work of the loads")
-    unit = table.units.get("kinetic energy") or table.units.get(parts[0], "")
-    axes.set_ylabel(f"energy [{unit}]" if unit else "energy")
-    axes.legend(ncols=5, fontsize=8, loc="lower right", bbox_to_anchor=(1.0, 0.99), columnspacing=1.1, handlelength=1.5)
-    figure.suptitle("Energy ledger", x=0.11, horizontalalignment="left", fontsize=11, fontweight="bold")
+    work = "work since the start"
+    if table.has_values(work) and any(finite(table[work])):
+        axes.plot(table[progress], table[work], color="#9aa7b4", linewidth=1.1, linestyle=":", label="work")
+    axes.set_ylabel(f"energy [{table.units.get(parts[0], '')}]")
+    axes.legend(ncols=6, fontsize=8, loc="lower right", bbox_to_anchor=(1.0, 0.99), columnspacing=1.0,
+                handlelength=1.5)
+    figure.suptitle("Energies", x=0.11, horizontalalignment="left", fontsize=11, fontweight="bold")
     if residual:
-        below.plot(table["time"], table["ledger residual"], color=COLOURS[4], linewidth=1.2)
+        below.plot(table[progress], table["ledger residual"], color=COLOURS[4], linewidth=1.2)
         below.axhline(0, color="#9aa7b4", linewidth=0.8)
         below.set_ylabel("residual")
-    below.set_xlabel(table.label("time"))
+    below.set_xlabel(table.label(progress))
+    return figure
+
+
+def curve(run, name, title, colour):
+    """One quantity that is never negative, over time or load."""
+    table = run.statistics
+    progress = axis_of(table)
+    if not (progress and table.has_values(name) and any(finite(table[name]))):
+        return None
+    figure, axes = plt.subplots()
+    axes.plot(table[progress], table[name], color=colour, **dots(table))
+    axes.fill_between(table[progress], table[name], color=colour, alpha=0.08)
+    axes.set(title=title, xlabel=table.label(progress), ylabel=table.label(name))
+    axes.set_ylim(bottom=0)
     return figure
 
 
 def penetration(run):
-    """The greatest penetration, relative to the mesh width where that is known."""
+    return curve(run, "max penetration over h", "Greatest penetration over mesh width", COLOURS[1])
+
+
+def largest_pressure(run):
+    return curve(run, "max pressure", "Largest contact pressure (per undeformed area)", COLOURS[3])
+
+
+def contact_area(run):
+    return curve(run, "contact area", "Contact area (undeformed)", COLOURS[2])
+
+
+def forces(run, kind, title):
+    """Components of all forces of a kind; those that are round-off beside the greatest only hide the zero line."""
     table = run.statistics
-    name = "max penetration over h" if table.has_values("max penetration over h") else "max penetration"
-    if not (table.has_values(name) and any(finite(table[name])) and moves(table)):
+    progress = axis_of(table)
+    names = [name for name in table.columns if name.startswith(kind) and table.has_values(name)]
+    sizes = {name: max(map(abs, finite(table[name]))) for name in names}
+    greatest = max(sizes.values(), default=0.0)
+    if not progress or not greatest > 0:
         return None
+    shown = [name for name in names if sizes[name] > 1e-6 * greatest]
+    largest = sorted(shown, key=sizes.get)[-MAX_FORCES:]
     figure, axes = plt.subplots()
-    axes.plot(table["time"], table[name], color=COLOURS[1], **dots(table))
-    axes.fill_between(table["time"], table[name], color=COLOURS[1], alpha=0.08)
-    axes.set(title="Greatest penetration", xlabel=table.label("time"), ylabel=table.label(name))
-    axes.set_ylim(bottom=0)
+    for name in (name for name in shown if name in largest):
+        axes.plot(table[progress], table[name], label=name[len(kind):], **dots(table))
+    axes.axhline(0, color="#9aa7b4", linewidth=0.8)
+    rest = f", the largest {MAX_FORCES} of {len(shown)}" if len(shown) > MAX_FORCES else ""
+    axes.set(title=title + rest, xlabel=table.label(progress), ylabel=f"force [{table.units.get(names[0], '')}]")
+    axes.legend(fontsize=8)
     return figure
 
 
 def contact_force(run):
-    table = run.statistics
-    names = [f"contact force {axis}" for axis in "xyz"]
-    names = [name for name in names if table.has_values(name)]
-    if not any(any(finite(table[name])) for name in names) or not moves(table):
-        return None
-    greatest = max(abs(value) for name in names for value in finite(table[name]))
-    figure, axes = plt.subplots()
-    for name, colour in zip(names, (COLOURS[1], COLOURS[2], COLOURS[0])):
-        # A component that is round-off beside the others only hides the zero line.
-        if max(map(abs, finite(table[name]))) > 1e-6 * greatest:
-            axes.plot(table["time"], table[name], color=colour, label=name[-1], **dots(table))
-    axes.axhline(0, color="#9aa7b4", linewidth=0.8)
-    unit = table.units.get(names[0], "")
-    axes.set(title="Contact force", xlabel=table.label("time"), ylabel=f"force [{unit}]" if unit else "force")
-    axes.legend(ncols=3)
-    return figure
+    return forces(run, "contact force ", "Contact force")
 
 
-def contact_area(run):
-    table = run.statistics
-    if not (table.has_values("contact area") and any(finite(table["contact area"])) and moves(table)):
-        return None
-    figure, axes = plt.subplots()
-    axes.plot(table["time"], table["contact area"], color=COLOURS[2], **dots(table))
-    axes.set(title="Contact area", xlabel=table.label("time"), ylabel=table.label("contact area"))
-    axes.set_ylim(bottom=0)
-    return figure
+def support_force(run):
+    return forces(run, "support force ", "Force of the supports")
 
 
 def run_time(run):
@@ -148,16 +161,20 @@ def is_number(value):
     return isinstance(value, (int, float)) and not isinstance(value, bool) and math.isfinite(value)
 
 
-def moves(table):
-    """Curves over time need a time that has more than one value."""
-    return table.has_values("time") and len(set(finite(table["time"]))) > 1
+def axis_of(table):
+    """The column that curves run over, `time` or `load parameter`; None unless it has more than one value."""
+    for name in ("time", "load parameter"):
+        if table.has_values(name) and len(set(finite(table[name]))) > 1:
+            return name
+    return None
 
 
 def dots(table):
     """Few points are load steps: show them as such."""
-    return {"marker": "o", "markersize": 3.5} if len(table["time"]) <= 40 else {}
+    return {"marker": "o", "markersize": 3.5} if len(next(iter(table.columns.values()))) <= 40 else {}
 
 
 #: file name, drawing function
-ALL = [("contact_pressure", contact_pressure), ("energy", energy_ledger), ("penetration", penetration),
-       ("contact_force", contact_force), ("contact_area", contact_area), ("run_time", run_time)]
+ALL = [("contact_pressure", contact_pressure), ("contact_force", contact_force), ("largest_pressure", largest_pressure),
+       ("penetration", penetration), ("energy", energy_ledger), ("support_force", support_force),
+       ("contact_area", contact_area), ("run_time", run_time)]

@@ -32,6 +32,7 @@ td.number, th.number { text-align: right; }
 tr:last-child td { border-bottom: 0; }
 pre { margin: .6rem 0 0; font: 13px/1.45 ui-monospace, "DejaVu Sans Mono", monospace; overflow-x: auto; }
 summary { cursor: pointer; font-weight: 600; }
+header pre { white-space: pre-wrap; }
 .note { color: var(--soft); }
 .columns { display: grid; grid-template-columns: repeat(auto-fit, minmax(430px, 1fr)); gap: 1rem; }
 footer { color: var(--soft); font-size: .85rem; margin-top: 1.5rem; }
@@ -41,10 +42,15 @@ footer { color: var(--soft); font-size: .85rem; margin-top: 1.5rem; }
 
 ALTERNATIVES = {
     "scene": "The deformed scene", "contact_pressure": "Contact pressure against the radius",
-    "energy": "Energies over time", "penetration": "Greatest penetration over time",
-    "contact_force": "Contact force over time", "contact_area": "Contact area over time",
+    "energy": "Energies over time or load", "penetration": "Greatest penetration over time or load",
+    "contact_force": "Contact forces over time or load", "contact_area": "Contact area over time or load",
+    "support_force": "Forces of the supports over the load",
+    "largest_pressure": "Largest contact pressure over time or load",
     "run_time": "Seconds by section of the program",
 }
+
+UNITS = {"effective_stiffness": " [Pa/m]", "max_penetration": " [m]", "max_pressure": " [Pa, per undeformed area]",
+         "area": " [m\u00b2; m in 2-D, undeformed]", "n_pairs_max": " (points near a target, whole run\u2019s most)"}
 
 
 def compose(run, figures, omissions):
@@ -54,7 +60,8 @@ def compose(run, figures, omissions):
     plots = "".join(f'<div class="card">{image(name, path)}</div>' for name, path in figures if name != "scene")
     scene = f'<div class="card">{image("scene", images["scene"])}</div>' if "scene" in images else ""
     body = [header(summary, title), key_figures(summary), scene, f'<div class="plots">{plots}</div>' if plots else "",
-            errors_table(summary), '<div class="columns">', parts_table(summary), quantities_table(summary), "</div>",
+            errors_table(summary), '<div class="columns">', quantities_table(summary),
+            f"<div>{forces_table(summary)}{parts_table(summary)}</div>", "</div>",
             omissions_card(omissions), parameters_card(run.parameters), footer(summary)]
     return (f'<!DOCTYPE html>\n<html lang="en"><head><meta charset="utf-8">\n'
             f'<meta name="viewport" content="width=device-width, initial-scale=1">\n'
@@ -75,11 +82,16 @@ def header(summary, title):
     pieces = [f'{summary.get("program", "Signorini")} {summary.get("version", "")}'.strip(),
               str(summary.get("input", "")), plural(ranks, "rank") if ranks else ""]
     return (f'<header><h1>{text(title)}<span class="badge{"" if good else " bad"}">{text(status)}</span></h1>'
-            f'<p>{text(" · ".join(piece for piece in pieces if piece))}</p></header>')
+            f'<p>{text(" · ".join(piece for piece in pieces if piece))}</p>{failure(summary)}</header>')
+
+
+def failure(summary):
+    reason = summary.get("reason", "")
+    return f'<pre class="card">{text(reason)}</pre>' if reason else ""
 
 
 def key_figures(summary):
-    contact = mapping(summary, "contact")
+    peak = mapping(mapping(summary, "contact"), "peak")
     energy = mapping(summary, "energy")
     entries = [
         ("unknowns", count(summary.get("n_dofs"))),
@@ -87,9 +99,9 @@ def key_figures(summary):
         ("steps", count(summary.get("n_steps"))),
         ("run time", duration(mapping(summary, "run_time").get("total"))),
         ("memory", f'{significant(summary["memory_peak_mb"], 3)} MB' if "memory_peak_mb" in summary else ""),
-        ("greatest contact pressure", significant(contact.get("max_pressure"))),
-        ("greatest penetration / h", significant(contact.get("max_penetration_over_h"), 3)),
-        ("residual of the energy ledger", significant(energy.get("ledger_residual"), 2)),
+        ("largest contact pressure of the run [Pa, per undeformed area]", significant(peak.get("max_pressure"))),
+        ("greatest penetration / h of the run", significant(peak.get("max_penetration_over_h"), 3)),
+        ("greatest residual of the energy ledger", significant(energy.get("max_ledger_residual"), 2)),
     ]
     cells = "".join(f'<div class="figure"><b>{text(value)}</b><span>{text(name)}</span></div>'
                     for name, value in entries if value)
@@ -124,12 +136,27 @@ def parts_table(summary):
 def quantities_table(summary):
     """Everything that the summary says about contact, energy, momentum and the error estimate."""
     rows = []
-    for group in ("contact", "energy", "momentum", "estimate"):
+    for group, when in (("contact", ""), ("energy", ""), ("momentum", "greatest "), ("estimate", "")):
         for name, value in mapping(summary, group).items():
-            shown = ", ".join(significant(entry) for entry in value) if isinstance(value, list) else significant(value)
-            rows.append(f'<tr><td>{text(group)}: {text(name.replace("_", " "))}</td>'
-                        f'<td class="number">{text(shown)}</td></tr>')
-    return f'<div class="card"><h2>Quantities</h2><table>{"".join(rows)}</table></div>' if rows else ""
+            if not isinstance(value, (dict, list)):
+                rows.append((f"{group}: {when}{name.replace('_', ' ')}{UNITS.get(name, '')}", significant(value)))
+    rows += [(f"contact: whole run\u2019s peak of {name.replace('_', ' ')}{UNITS.get(name, '')}", significant(value))
+             for name, value in mapping(mapping(summary, "contact"), "peak").items()]
+    return two_columns("Quantities (at the end, unless they say otherwise)", rows)
+
+
+def forces_table(summary):
+    """The last contact and support forces, by name."""
+    rows = [(f"contact force on {entry.get('name')}", ", ".join(significant(value) for value in entry["force"]))
+            for entry in mapping(summary, "contact").get("resultant") or []]
+    rows += [(f"support force {entry.get('name')}", significant(entry.get("force")))
+             for entry in summary.get("supports") or []]
+    return two_columns("Forces at the end [N; N/m in two dimensions]", rows)
+
+
+def two_columns(title, rows):
+    cells = "".join(f'<tr><td>{text(name)}</td><td class="number">{text(value)}</td></tr>' for name, value in rows)
+    return f'<div class="card"><h2>{text(title)}</h2><table>{cells}</table></div>' if rows else ""
 
 
 def omissions_card(omissions):
@@ -175,6 +202,8 @@ def is_number(value):
 def significant(value, digits=5):
     if value is None:
         return ""
+    if isinstance(value, bool):
+        return "yes" if value else "no"
     return f"{value:.{digits}g}" if is_number(value) else str(value)
 
 

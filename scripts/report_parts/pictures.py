@@ -7,6 +7,8 @@ import shutil
 import subprocess
 import tempfile
 
+import numpy
+
 TIME_LIMIT = 180  # seconds for the 3-D picture
 
 
@@ -24,7 +26,7 @@ def make_all(run):
     else:
         omissions.append(f"picture of the scene: {reason}")
     for name, draw in curves.ALL:
-        path = run.directory / f"{name}.png"
+        path = run.directory / f"report_{name}.png"
         path.unlink(missing_ok=True)
         try:
             figure = draw(run)
@@ -40,7 +42,7 @@ def make_all(run):
 
 def make_scene(run, plt):
     """The file of the picture, or None and why there is none."""
-    target = run.directory / "scene.png"
+    target = run.directory / "report_scene.png"
     target.unlink(missing_ok=True)
     if not (run.directory / "solution.pvd").is_file():
         return None, "the run wrote no solution.pvd."
@@ -68,11 +70,11 @@ def make_scene(run, plt):
 def compose(work, target, plt):
     """Views side by side, cut to what they show, with one colour bar."""
     picture = json.loads((work / "picture.json").read_text())
-    views = [(crop(plt.imread(work / "whole.png")), f"Deformed scene at t = {picture['time']:.6g}")]
+    views = [(widen(crop(plt.imread(work / "whole.png"))), f"Deformed scene at t = {picture['time']:.6g}")]
     if picture["close"]:
         views.append((plt.imread(work / "close.png"), "Cut through the highest contact pressure"))
     widths = [image.shape[1] / image.shape[0] for image, _ in views]
-    height = min(4.6, 11.5 / sum(widths))
+    height = min(5.2, 11.5 / sum(widths))
     figure, all_axes = plt.subplots(1, len(views), figsize=(height * sum(widths) + 1.0, height + 0.4),
                                     width_ratios=widths, squeeze=False)
     for axes, (image, title) in zip(all_axes[0], views):
@@ -87,6 +89,12 @@ def compose(work, target, plt):
         bar.outline.set_visible(False)
     figure.savefig(target, dpi=150)
     plt.close(figure)
+
+
+def widen(image):
+    """A tall thin image with white on both sides, so that the title above it has room."""
+    missing = max(int(0.8 * image.shape[0]) - image.shape[1], 0)
+    return numpy.pad(image, ((0, 0), (missing // 2, missing - missing // 2), (0, 0)), constant_values=1.0)
 
 
 def crop(image):

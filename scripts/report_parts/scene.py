@@ -15,6 +15,10 @@ import numpy
 import vtk
 from vtk.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 
+sys.path.insert(0, str(pathlib.Path(__file__).parent))
+import obstacles
+from surface import outer_surface
+
 SIZE = (1400, 1050)
 COLOUR_MAP = "YlGnBu"
 
@@ -87,8 +91,8 @@ def values_of(grid, name):
 
 
 def choose_field(grids):
-    for name, title in (("von_mises_stress", "von Mises stress"), ("contact_pressure", "contact pressure"),
-                        ("displacement", "displacement")):
+    for name, title in (("von_mises_stress", "von Mises stress [Pa]"),
+                        ("contact_pressure", "contact pressure [Pa]"), ("displacement", "displacement [m]")):
         found = [values for values in (values_of(grid, name) for grid in grids) if values is not None]
         if found and max(values.max() for values in found) > 0:
             return name, title, numpy.concatenate(found)
@@ -109,14 +113,11 @@ def colour_table(upper):
     return table
 
 
-def actors_of(data, field, table, upper):
+def actors_of(data, field, table, upper, flat):
     """The coloured surface, its mesh where that is not too fine to see, and its sharp edges."""
-    surface = vtk.vtkDataSetSurfaceFilter()
-    surface.SetInputData(data)
-    surface.SetNonlinearSubdivisionLevel(2)
-    surface.Update()
+    surface = outer_surface(data)
     mapper = vtk.vtkPolyDataMapper()
-    mapper.SetInputConnection(surface.GetOutputPort())
+    mapper.SetInputData(surface)
     if field and data.GetPointData().GetArray(field):
         mapper.SetScalarModeToUsePointFieldData()
         mapper.SelectColorArray(field)
@@ -134,22 +135,23 @@ def actors_of(data, field, table, upper):
     look.SetAmbient(0.42)
     look.SetDiffuse(0.62)
     look.SetSpecular(0.08)
-    if surface.GetOutput().GetNumberOfCells() <= 12000:
+    if surface.GetNumberOfCells() <= 12000:
         look.EdgeVisibilityOn()
         look.SetEdgeColor(0.45, 0.52, 0.58)
         look.SetLineWidth(0.6)
     edges = vtk.vtkFeatureEdges()
-    edges.SetInputConnection(surface.GetOutputPort())
+    edges.SetInputData(surface)
     edges.SetFeatureAngle(50)
     edges.ColoringOff()
     edges.ManifoldEdgesOff()
+    edges.SetBoundaryEdges(flat)
     edge_mapper = vtk.vtkPolyDataMapper()
     edge_mapper.SetInputConnection(edges.GetOutputPort())
     edge_mapper.ScalarVisibilityOff()
     outline = vtk.vtkActor()
     outline.SetMapper(edge_mapper)
     outline.GetProperty().SetColor(0.15, 0.2, 0.25)
-    outline.GetProperty().SetLineWidth(1.6)
+    outline.GetProperty().SetLineWidth(0.8 if flat else 1.6)
     return [body, outline]
 
 
@@ -202,7 +204,7 @@ def camera(flat, direction, focus=None, radius=None):
     return place
 
 
-def close_up(grids, centre, extent, actors_for, path):
+def close_up(grids, centre, extent, actors_for, obstacles_behind, path):
     """A cut through the point of highest contact pressure; returns the direction it is best seen from, or None."""
     pressures = [values_of(grid, "contact_pressure") for grid in grids]
     peaks = [values.max() if values is not None else 0 for values in pressures]
@@ -231,6 +233,7 @@ def close_up(grids, centre, extent, actors_for, path):
         clip.Update()
         if clip.GetOutput().GetNumberOfCells():
             actors += actors_for(clip.GetOutput())
+    actors += obstacles_behind(plane)
     render(actors, camera(False, direction, peak, radius), path)
     return direction
 
@@ -248,12 +251,18 @@ def main(directory, work):
     table = colour_table(upper)
 
     def actors_for(data):
-        return actors_of(data, name, table, upper)
+        return actors_of(data, name, table, upper, flat)
+
+    rigid = obstacles.read(directory / "parameters.prm")
+
+    def obstacles_behind(plane):
+        return obstacles.make_actors(rigid, lower, upper_corner, flat, plane)
 
     direction = None
     if not flat:
-        direction = close_up(grids, (lower + upper_corner) / 2, extent, actors_for, work / "close.png")
-    actors = [actor for grid in grids for actor in actors_for(grid)]
+        direction = close_up(grids, (lower + upper_corner) / 2, extent, actors_for, obstacles_behind,
+                             work / "close.png")
+    actors = [actor for grid in grids for actor in actors_for(grid)] + obstacles_behind(None)
     whole = direction if direction is not None else numpy.array([0.5, -0.85, 0.42])
     render(actors, camera(flat, whole), work / "whole.png")
     description = {"time": time, "field": title, "upper": upper, "colour_map": COLOUR_MAP,

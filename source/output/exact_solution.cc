@@ -117,6 +117,8 @@ std::vector<ErrorRow> squeezed_bars(const Results<dim> &results)
   const double end = results.body_end_displacement.at(1)[dim - 1];
   return {compare("penetration over shortening of the surface layers",
                   results.contact.max_penetration / layers, 1. / results.parameters->contact->penalty_factor),
+          compare("contact resultant against the load", results.contact.resultants.at(0).norm(),
+                  norm(results.total_load)),
           compare("displacement of the loaded end", end, shortening(one) + shortening(other))};
 }
 
@@ -184,7 +186,19 @@ std::vector<ErrorRow> bar_impact(const Results<dim> &results)
   return {compare("momentum exchange (velocity)", exchanged, v_other - v_one),
           compare("mechanical energy", energy.kinetic + energy.elastic + energy.contact, energy.initial),
           compare("contact time", contact_duration(results.history), 2. * length / wave_speed),
-          compare("peak contact force", peak_force, exact_force)};
+          compare("peak contact force (with the dashpots')", peak_force, exact_force)};
+}
+
+/// Time integral of the contact force on the first body along the last axis, from the rows of the history.
+template <int dim>
+double contact_impulse(const std::vector<HistoryRow> &history)
+{
+  double impulse = 0.;
+  for (std::size_t i = 1; i < history.size(); ++i)
+    impulse +=
+        0.5 * (history[i].time - history[i - 1].time) *
+        (history[i - 1].bodies.at(0).contact_force[dim - 1] + history[i].bodies.at(0).contact_force[dim - 1]);
+  return impulse;
 }
 
 template <int dim>
@@ -195,8 +209,12 @@ std::vector<ErrorRow> bounce(const Results<dim> &results)
   const MeshParameters &mesh = results.parameters->bodies.at(0).mesh;
   const double n_layers = mesh.cells[dim - 1] * std::pow(2., mesh.refinements);
   const double ratio = results.parameters->contact->damping->damping_ratio / std::sqrt(2. * n_layers);
-  return {compare("restitution", -end.bodies.at(0).velocity[dim - 1] / start.bodies.at(0).velocity[dim - 1],
-                  restitution(ratio))};
+  const double v_start = std::abs(start.bodies.at(0).velocity[dim - 1]), e = restitution(ratio);
+  const double mass = results.body_masses.at(0);
+  return {
+      compare("restitution", end.bodies.at(0).velocity[dim - 1] / v_start, e),
+      compare("impulse of the obstacle", contact_impulse<dim>(results.history), mass * (1. + e) * v_start),
+      compare("dissipated energy", results.energy.dissipated, 0.5 * mass * v_start * v_start * (1. - e * e))};
 }
 
 template <int dim>

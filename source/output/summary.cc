@@ -26,27 +26,60 @@ Json describe_parts(const Results<dim> &results)
 }
 
 template <int dim>
+Json describe_resultants(const Results<dim> &results)
+{
+  Json resultants = Json::array();
+  for (const ContactResultant &resultant : results.resultants)
+    resultants.push_back(
+        {{"name", resultant.on + " from " + resultant.from},
+         {"on", resultant.on},
+         {"from", resultant.from},
+         {"force", std::vector<double>(resultant.force.begin(), resultant.force.begin() + dim)}});
+  return resultants;
+}
+
+template <int dim>
+Json describe_supports(const Results<dim> &results)
+{
+  Json supports = Json::array();
+  for (const SupportForce &support : results.support_forces)
+  {
+    const std::string component(1, "xyz"[support.component]);
+    supports.push_back({{"name", component + " on " + support.body + " at " + support.boundary},
+                        {"body", support.body},
+                        {"boundary", support.boundary},
+                        {"component", component},
+                        {"force", support.force}});
+  }
+  return supports;
+}
+
+template <int dim>
 Json describe_contact(const Results<dim> &results)
 {
   const contact::ContactMeasures<dim> &contact = results.contact;
-  Json resultants = Json::array();
-  for (const SpatialVector<dim> &resultant : contact.resultants)
-    resultants.push_back(std::vector<double>(resultant.data(), resultant.data() + dim));
   return {{"alpha", results.parameters->contact->penalty_factor},
           {"effective_stiffness", contact.max_stiffness},
           {"max_penetration", contact.max_penetration},
-          {"max_penetration_over_h", results.max_penetration_over_thickness},
+          {"max_penetration_over_h", contact.max_penetration_over_thickness},
           {"max_pressure", contact.max_pressure},
           {"area", contact.area},
-          {"resultant", resultants},
+          {"resultant", describe_resultants(results)},
           {"n_pairs_max", results.max_n_pairs},
-          {"touching", contact.n_active > 0}};
+          {"touching", contact.n_active > 0},
+          {"peak",
+           {{"max_penetration", results.max_penetration},
+            {"max_penetration_over_h", results.max_penetration_over_thickness},
+            {"max_pressure", results.max_pressure},
+            {"area", results.max_area}}}};
 }
 
 template <int dim>
 Json describe_energy(const Results<dim> &results)
 {
   const EnergyLedger &energy = results.energy;
+  if (!results.has_ledger)
+    return {{"elastic", energy.elastic}, {"contact", energy.contact}};
   return {{"kinetic", energy.kinetic},
           {"elastic", energy.elastic},
           {"contact", energy.contact},
@@ -80,16 +113,18 @@ void write_summary(const Results<dim> &results, const std::string &input, unsign
                {"n_ranks", n_ranks},         {"parts", describe_parts(results)},
                {"n_dofs", results.n_dofs},   {"n_cells", results.n_cells},
                {"n_steps", results.n_steps}, {"n_iterations", results.n_iterations}};
+  if (!results.reason.empty())
+    summary["reason"] = results.reason;
   summary["run_time"] = {{"total", results.total_run_time}, {"sections", results.run_time}};
   summary["memory_peak_mb"] = results.memory_peak_mb;
   if (results.has_contact)
     summary["contact"] = describe_contact(results);
+  if (!results.support_forces.empty())
+    summary["supports"] = describe_supports(results);
+  summary["energy"] = describe_energy(results);
   if (results.has_ledger)
-  {
-    summary["energy"] = describe_energy(results);
     summary["momentum"] = {{"linear_drift", results.max_linear_drift},
                            {"angular_drift", results.max_angular_drift}};
-  }
   summary["errors"] = describe_errors(results);
 
   const std::string name = directory + "/summary.json";

@@ -2,6 +2,7 @@
 #include "signorini/simulation/run.h"
 
 #include "signorini/base/exceptions.h"
+#include "signorini/output/earlier_output.h"
 #include "signorini/parameters/print_parameters.h"
 #include "signorini/parameters/read_parameters.h"
 #include "signorini/simulation/simulation.h"
@@ -34,7 +35,10 @@ void run(const CommandLine &command_line, const ParameterText &text, const Param
     return;
   }
   if (dealii::Utilities::MPI::this_mpi_process(communicator) == 0)
+  {
+    remove_earlier_output(parameters.output.directory);
     write_used_parameters(text, parameters.output.directory);
+  }
   MPI_Barrier(communicator);
   simulation.run();
 }

@@ -153,19 +153,6 @@ void Simulation<dim>::check_penetration()
           .advise("raise Contact/Penalty factor, refine, or load more slowly"));
 }
 
-template <int dim>
-void Simulation<dim>::append_contact(Statistics::Row &row) const
-{
-  const auto &contact = results.contact;
-  for (unsigned int d = 0; d < dim; ++d)
-    row.emplace_back(fmt::format("contact force {} [N]", "xyz"[d]), contact.resultants.at(0)[d]);
-  row.emplace_back("contact area [m2]", contact.area);
-  row.emplace_back("max penetration [m]", contact.max_penetration);
-  row.emplace_back("max penetration over h [1]", contact.max_penetration_over_thickness);
-  row.emplace_back("max pressure [Pa]", contact.max_pressure);
-  row.emplace_back("pairs [1]", contact.n_active);
-}
-
 template class Simulation<2>;
 template class Simulation<3>;
 } // namespace signorini

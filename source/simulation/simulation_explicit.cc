@@ -35,6 +35,7 @@ void Simulation<dim>::run_explicit(const ExplicitParameters &solver_parameters)
       state.time = end;
     ++results.n_steps;
     update_contact_measures();
+    note_peaks();
     check_penetration();
     if (state.time >= end * row / n_rows)
     {
@@ -54,6 +55,7 @@ void Simulation<dim>::run_explicit(const ExplicitParameters &solver_parameters)
 template <int dim>
 void Simulation<dim>::record_explicit(const ExplicitSolver<dim> &solver, double time_step, double end)
 {
+  const auto joules = [](const std::string &name) { return name + (dim == 2 ? " [J/m]" : " [J]"); };
   const EnergyLedger &energy = solver.energy();
   const MomentumLedger &momentum = solver.momentum();
   results.has_ledger = true;
@@ -62,26 +64,23 @@ void Simulation<dim>::record_explicit(const ExplicitSolver<dim> &solver, double 
   results.max_ledger_residual = std::max(results.max_ledger_residual, std::abs(energy.residual()));
   results.max_linear_drift = std::max(results.max_linear_drift, momentum.linear_drift());
   results.max_angular_drift = std::max(results.max_angular_drift, momentum.angular_drift());
-  update_contact_measures();
-  results.history.push_back({state.time, record_bodies()});
+  record_state();
 
   Statistics::Row row{{"time [s]", state.time},
                       {"time step [s]", time_step},
-                      {"kinetic energy [J]", energy.kinetic},
-                      {"elastic energy [J]", energy.elastic},
-                      {"contact energy [J]", energy.contact},
-                      {"dissipated [J]", energy.dissipated},
-                      {"work [J]", energy.work_of_loads + energy.work_of_supports},
-                      {"contact renewals [J]", energy.contact_renewals},
+                      {joules("kinetic energy"), energy.kinetic},
+                      {joules("elastic energy"), energy.elastic},
+                      {joules("contact energy"), energy.contact},
+                      {joules("dissipated since the start"), energy.dissipated},
+                      {joules("work since the start"), energy.work_of_loads + energy.work_of_supports},
+                      {joules("renewed contact energy since the start"), energy.contact_renewals},
                       {"ledger residual [1]", energy.residual()},
                       {"linear momentum drift [1]", momentum.linear_drift()},
                       {"angular momentum drift [1]", momentum.angular_drift()}};
   if (results.has_contact)
     append_contact(row);
-  for (unsigned int body = 0; body < scene.n_bodies(); ++body)
-    for (unsigned int d = 0; d < dim; ++d)
-      row.emplace_back(fmt::format("velocity {} of {} [m/s]", "xyz"[d], scene.body_names[body]),
-                       results.history.back().bodies[body].velocity[d]);
+  append_resultants(row);
+  append_bodies(row);
   if (statistics)
     statistics->write(row);
   progress.step(fmt::format("step {}  t {:.5g}  dt {:.3e}  pairs {}  penetration/h {:.2e}  ledger {:+.2e}",
@@ -129,28 +128,6 @@ void Simulation<dim>::set_initial_motion()
                                                    spin[(d + 1) % 3] * arm[(d + 2) % 3] -
                                                    spin[(d + 2) % 3] * arm[(d + 1) % 3];
   }
-}
-
-template <int dim>
-std::vector<BodyRecord> Simulation<dim>::record_bodies() const
-{
-  std::vector<BodyRecord> records(scene.n_bodies());
-  for (unsigned int body = 0; body < scene.n_bodies() && results.has_contact; ++body)
-    for (unsigned int d = 0; d < dim; ++d)
-      records[body].contact_force[d] = results.contact.resultants[body][d];
-  if (state.velocity.size() == 0)
-    return records;
-  const Vector mass = make_lumped_mass(scene.materials, *discretization);
-  std::vector<double> momenta(dim * scene.n_bodies(), 0.);
-  for (const OwnedNode<dim> &node : discretization->owned_nodes)
-    for (unsigned int d = 0; d < dim; ++d)
-      momenta[dim * node.body + d] +=
-          mass.local_element(node.dofs[d]) * state.velocity.local_element(node.dofs[d]);
-  dealii::Utilities::MPI::sum(momenta, communicator, momenta);
-  for (unsigned int body = 0; body < scene.n_bodies(); ++body)
-    for (unsigned int d = 0; d < dim; ++d)
-      records[body].velocity[d] = momenta[dim * body + d] / results.body_masses[body];
-  return records;
 }
 
 template class Simulation<2>;

@@ -11,6 +11,20 @@
 
 namespace signorini
 {
+namespace
+{
+std::string describe_iteration(double time, const NewtonReport &report)
+{
+  // A residual of exactly 0 says that every body's is round-off; new points of contact may raise it again.
+  const std::string residual =
+      report.residual == 0. ? "residual round-off" : fmt::format("residual {:.2e}", report.residual);
+  const std::string start = fmt::format("load {:.5g}  iteration {:2d}  {}", time, report.iteration, residual);
+  return report.iteration == 0 ? start
+                               : fmt::format("{}  step {:.3g}  linear iterations {}", start,
+                                             report.step_length, report.linear_iterations);
+}
+} // namespace
+
 template <int dim>
 void Simulation<dim>::run_quasi_static(const QuasiStaticParameters &solver_parameters)
 {
@@ -20,30 +34,27 @@ void Simulation<dim>::run_quasi_static(const QuasiStaticParameters &solver_param
   const double end = solver_parameters.end_time, largest_step = end / solver_parameters.load_steps;
   const double smallest_step = largest_step * std::pow(0.5, solver_parameters.max_bisections);
   double step = largest_step;
+  record_quasi_static(solver);
   write_fields();
   while (state.time < end * (1. - 1e-12))
   {
     const double time = end - state.time < step * (1. + 1e-9) ? end : state.time + step;
     const double share = state.time / end;
-    const bool is_solved = solver.solve(
-        time, state,
-        [&](const NewtonReport &report)
-        {
-          progress.step(fmt::format("load {:.5g}  iteration {:2d}  residual {:.2e}  step {:.3g}  linear {}",
-                                    time, report.iteration, report.residual, report.step_length,
-                                    report.linear_iterations),
-                        share);
-        });
+    const bool is_solved = solver.solve(time, state,
+                                        [&](const NewtonReport &report)
+                                        { progress.step(describe_iteration(time, report), share); });
     results.n_iterations = solver.n_iterations();
     if (is_solved)
     {
       ++results.n_steps;
       if (solver.renewal_residual() > 0.)
         progress.say(fmt::format(
-            "load {:.5g}: points of integration follow the bodies around, an error of {:.1e} of the "
-            "forces",
+            "load {:.5g}: points of integration follow the bodies around, an error of {:.1e} of the forces",
             time, solver.renewal_residual()));
-      record_quasi_static(end);
+      record_quasi_static(solver);
+      check_penetration();
+      say_equilibrium(end);
+      write_fields();
       step = std::min(largest_step, 2. * step);
       continue;
     }
@@ -58,31 +69,40 @@ void Simulation<dim>::run_quasi_static(const QuasiStaticParameters &solver_param
 }
 
 template <int dim>
-void Simulation<dim>::record_quasi_static(double end)
+void Simulation<dim>::say_equilibrium(double end)
 {
-  const auto &contact = results.contact;
-  update_contact_measures();
-  check_penetration();
-  Statistics::Row row{{"load parameter [s]", state.time},
-                      {"elastic energy [J]", forces.elasticity->energy()}};
-  double contact_energy = 0.;
+  if (results.has_contact && results.contact.n_active == 0)
+    progress.say(fmt::format("load {:.5g}: equilibrium, nothing touches", state.time));
+  else
+    progress.step(fmt::format("load {:.5g}  equilibrium  points in contact {}  penetration/h {:.2e}",
+                              state.time, results.contact.n_active,
+                              results.contact.max_penetration_over_thickness),
+                  state.time / end);
+}
+
+template <int dim>
+void Simulation<dim>::record_quasi_static(const QuasiStaticSolver<dim> &solver)
+{
+  record_state();
+  record_support_forces(solver.reactions());
+  results.energy.elastic = forces.elasticity->energy();
+  results.energy.contact = 0.;
   for (const auto &term : forces.contacts)
-    contact_energy += term->energy();
+    results.energy.contact += term->energy();
+
+  const std::string joules = dim == 2 ? " [J/m]" : " [J]";
+  Statistics::Row row{{"load parameter [s]", state.time},
+                      {"elastic energy" + joules, results.energy.elastic}};
   if (results.has_contact)
   {
-    row.emplace_back("contact energy [J]", contact_energy);
+    row.emplace_back("contact energy" + joules, results.energy.contact);
     append_contact(row);
   }
-  row.emplace_back("iterations [1]", results.n_iterations);
+  append_resultants(row);
+  append_bodies(row);
+  row.emplace_back("Newton iterations since the start [1]", results.n_iterations);
   if (statistics)
     statistics->write(row);
-  if (results.has_contact && contact.n_active == 0)
-    progress.say(fmt::format("load {:.5g}: nothing touches", state.time));
-  else
-    progress.step(fmt::format("load {:.5g}  equilibrium  pairs {}  penetration/h {:.2e}", state.time,
-                              contact.n_active, contact.max_penetration_over_thickness),
-                  state.time / end);
-  write_fields();
 }
 
 template class Simulation<2>;

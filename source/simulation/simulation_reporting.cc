@@ -2,6 +2,7 @@
 // What a Simulation says of itself: its plan before the run, its results after.
 #include "signorini/simulation/simulation.h"
 
+#include "signorini/base/exceptions.h"
 #include "signorini/output/exact_solution.h"
 #include "signorini/output/summary.h"
 #include "signorini/physics/mass.h"
@@ -15,6 +16,24 @@
 
 namespace signorini
 {
+namespace
+{
+/// What the exception says that is being handled; nothing where none is.
+std::string reason_of_failure()
+{
+  try
+  {
+    if (std::current_exception())
+      throw;
+  }
+  catch (const ProgramError &error)
+  {
+    return error.complaint().text();
+  }
+  return "";
+}
+} // namespace
+
 template <int dim>
 void Simulation<dim>::print_plan()
 {
@@ -57,10 +76,10 @@ double Simulation<dim>::memory_mb() const
 template <int dim>
 void Simulation<dim>::measure_bodies()
 {
-  const Vector volume = make_nodal_volume(*discretization);
+  nodal_volume = make_nodal_volume(*discretization);
   results.body_volumes.assign(scene.n_bodies(), 0.);
   for (const OwnedNode<dim> &node : discretization->owned_nodes)
-    results.body_volumes[node.body] += volume.local_element(node.dofs[0]);
+    results.body_volumes[node.body] += nodal_volume.local_element(node.dofs[0]);
   dealii::Utilities::MPI::sum(results.body_volumes, communicator, results.body_volumes);
   for (unsigned int body = 0; body < scene.n_bodies(); ++body)
     results.body_masses.push_back(results.body_volumes[body] * scene.materials[body].density);
@@ -146,6 +165,7 @@ template <int dim>
 void Simulation<dim>::finish(const std::string &status)
 {
   results.status = status;
+  results.reason = reason_of_failure();
   results.memory_peak_mb = memory_mb();
   gather_samples();
   gather_nodal_pressures();
@@ -168,11 +188,20 @@ template <int dim>
 void Simulation<dim>::print_results()
 {
   if (results.has_contact)
+  {
+    const std::string form = "Contact {}: largest pressure {:.6g} Pa, penetration/h {:.3g}, area {:.6g}";
     progress.say(results.contact.n_active > 0
-                     ? fmt::format("Contact: largest pressure {:.6g} Pa, penetration/h {:.3g}, area {:.6g}",
-                                   results.contact.max_pressure,
+                     ? fmt::format(form, "at the end", results.contact.max_pressure,
                                    results.contact.max_penetration_over_thickness, results.contact.area)
-                     : "Contact: nothing touches at the end of the run");
+                     : "Contact at the end: nothing touches");
+    progress.say(fmt::format(form, "in the whole run", results.max_pressure,
+                             results.max_penetration_over_thickness, results.max_area));
+  }
+  for (const ContactResultant &resultant : results.resultants)
+    if (resultant.force != std::array<double, 3>{})
+      progress.say(fmt::format("Contact force on {} from {} at the end: ({:.6g})", resultant.on,
+                               resultant.from,
+                               fmt::join(resultant.force.begin(), resultant.force.begin() + dim, ", ")));
   if (results.has_ledger)
     progress.say(
         fmt::format("Energy ledger open by {:.2e} at most; momentum drift {:.2e} linear, {:.2e} angular",

@@ -17,10 +17,11 @@ namespace signorini
 {
 /// Writes solution_NNNN.vtu (and .pvtu) and keeps solution.pvd, the list of all of them, up to date.
 ///
-/// Point data: displacement, velocity (explicit runs), contact_pressure and gap (with contact; the pressure
-/// is the nodal contact force over the area of the node, so that it integrates to the force; the gap is at
-/// most one layer thickness and negative where bodies overlap). Cell data: body, von_mises_stress and the
-/// components of the true stress.
+/// Point data: displacement [m], velocity [m/s] (explicit runs), contact_pressure [Pa] and gap [m] (with
+/// contact; the pressure is the nodal contact force, without damping, over the undeformed area of the node,
+/// so that its integral over the undeformed surface is the force; the gap is at most one layer thickness and
+/// negative where bodies overlap). Cell data: body, von_mises_stress and the components of the true stress
+/// [Pa].
 template <int dim>
 class Fields
 {

@@ -17,8 +17,24 @@ namespace signorini
 /// One body at one moment.
 struct BodyRecord
 {
-  std::array<double, 3> velocity{};      ///< of its centre of mass [m/s]
-  std::array<double, 3> contact_force{}; ///< on it [N]
+  std::array<double, 3> displacement{};  ///< of its centre of mass [m]
+  std::array<double, 3> velocity{};      ///< of its centre of mass; zero in quasi-static runs [m/s]
+  std::array<double, 3> contact_force{}; ///< on it, with that of the contact damping [N; N/m in 2-D]
+};
+
+/// Contact force on a body from another one or an obstacle, with that of the contact damping.
+struct ContactResultant
+{
+  std::string on, from;
+  std::array<double, 3> force{}; ///< [N; N/m in 2-D]
+};
+
+/// Force that a support exerts on its body in the component that it prescribes.
+struct SupportForce
+{
+  std::string body, boundary;
+  unsigned int component = 0;
+  double force = 0.; ///< [N; N/m in 2-D]
 };
 
 struct HistoryRow
@@ -48,6 +64,7 @@ struct Results
 {
   const Parameters *parameters = nullptr;
   std::string status = "running";
+  std::string reason; ///< of a failure
   std::vector<std::string> parts_built;
   std::vector<LeftOutPart> parts_left_out;
   unsigned int n_dofs = 0, n_cells = 0, n_steps = 0, n_iterations = 0;
@@ -57,14 +74,18 @@ struct Results
 
   bool has_contact = false;
   contact::ContactMeasures<dim> contact;      ///< of all contact terms at the end
+  double max_penetration = 0.;                ///< of the whole run [m]
   double max_penetration_over_thickness = 0.; ///< of the whole run
+  double max_pressure = 0.;                   ///< of the whole run [Pa]
+  double max_area = 0.;                       ///< of the whole run [m²; m in 2-D]
   unsigned int max_n_pairs = 0;
+  std::vector<ContactResultant> resultants; ///< at the end, of pairs that may touch
   std::vector<contact::ContactSample<dim>> samples;
   std::vector<unsigned int> sample_bodies;
   std::vector<double> sample_thicknesses;
-  std::vector<double> nodal_pressures; ///< nodal force over nodal area, of the nodes with an area [Pa]
+  std::vector<double> nodal_pressures; ///< nodal force over undeformed nodal area, where there is one [Pa]
 
-  bool has_ledger = false; ///< explicit runs
+  bool has_ledger = false; ///< explicit runs; `energy` of others holds elastic and contact only
   EnergyLedger energy;
   double max_ledger_residual = 0.;
   MomentumLedger momentum;
@@ -75,6 +96,7 @@ struct Results
   Eigen::Matrix3d smallest_stress = Eigen::Matrix3d::Zero(); ///< componentwise over all cells [Pa]
   Eigen::Matrix3d largest_stress = Eigen::Matrix3d::Zero();
   std::vector<HistoryRow> history;
+  std::vector<SupportForce> support_forces; ///< at the end of quasi-static runs
   double largest_support_displacement = 0.;
   std::array<double, 3> total_load{};                       ///< resultant of the loads at the end [N]
   std::vector<std::array<double, 3>> body_end_displacement; ///< largest displacement by component [m]

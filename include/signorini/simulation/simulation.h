@@ -41,14 +41,21 @@ private:
   void run_quasi_static(const QuasiStaticParameters &solver_parameters);
   void run_explicit(const ExplicitParameters &solver_parameters);
   void record_explicit(const ExplicitSolver<dim> &solver, double time_step, double end_time);
-  void record_quasi_static(double end_time);
+  void record_quasi_static(const QuasiStaticSolver<dim> &solver);
+  void say_equilibrium(double end_time);
   void check_penetration();
   void update_contact_measures();
-  std::vector<BodyRecord> record_bodies() const;
+  void note_peaks();
+  void record_bodies(const contact::PairForces<dim> &pair_forces);
+  void record_contact_forces(const contact::PairForces<dim> &pair_forces);
+  void record_support_forces(const Vector &reactions);
+  void record_state();
   void set_initial_motion();
   void measure_bodies();
   void write_fields();
   void append_contact(Statistics::Row &row) const;
+  void append_resultants(Statistics::Row &row) const;
+  void append_bodies(Statistics::Row &row) const;
   void finish(const std::string &status);
   void gather_samples();
   void gather_nodal_pressures();
@@ -67,6 +74,7 @@ private:
   std::unique_ptr<SupportedDofs<dim>> supports;
   std::unique_ptr<SurfaceMap<dim>> surface_map; ///< null without contact
   SceneForces<dim> forces;
+  Vector nodal_volume; ///< set when the run begins
   State state;
   std::vector<bool> is_body_held;
 

@@ -203,6 +203,31 @@ contact::ContactMeasures<dim> ContactForce<dim>::measure() const
   return total;
 }
 
+template <int dim>
+contact::PairForces<dim> ContactForce<dim>::pair_forces(const State &state) const
+{
+  using Velocities = std::vector<SpatialVector<dim>>;
+  const contact::PairForces<dim> own =
+      potential.pair_forces(state.velocity.size() > 0 ? map->gather(state.velocity) : Velocities());
+  contact::PairForces<dim> total;
+  for (const auto table : {&contact::PairForces<dim>::bodies, &contact::PairForces<dim>::obstacles})
+  {
+    std::vector<double> packed;
+    for (const auto &[pair, force] : own.*table)
+    {
+      packed.insert(packed.end(), {static_cast<double>(pair.first), static_cast<double>(pair.second)});
+      packed.insert(packed.end(), force.begin(), force.end());
+    }
+    for (const std::vector<double> &of_rank : dealii::Utilities::MPI::all_gather(communicator, packed))
+      for (auto value = of_rank.begin(); value != of_rank.end(); value += 2 + dim)
+        (total.*table)
+            .try_emplace({static_cast<unsigned int>(value[0]), static_cast<unsigned int>(value[1])},
+                         SpatialVector<dim>::Zero())
+            .first->second += Eigen::Map<const SpatialVector<dim>>(&value[2]);
+  }
+  return total;
+}
+
 template class ContactForce<2>;
 template class ContactForce<3>;
 } // namespace signorini

@@ -187,6 +187,23 @@ void ContactPotential<dim>::add_forces(std::vector<SpatialVector<dim>> &forces) 
 }
 
 template <int dim>
+double ContactPotential<dim>::depth_rate(const NearPair &near,
+                                         const std::vector<SpatialVector<dim>> &velocities) const
+{
+  SpatialVector<dim> gap_rate = SpatialVector<dim>::Zero();
+  for (unsigned int a = 0; a < near.stencil.n_nodes; ++a)
+    gap_rate += near.stencil.weight[a] * velocities[near.stencil.node[a]];
+  return -near.foot.normal.dot(gap_rate);
+}
+
+template <int dim>
+double ContactPotential<dim>::damping_pressure(const NearPair &near, double rate) const
+{
+  // What is added to k_A d may take all of it away, but not more: surfaces do not stick.
+  return std::max(near.pair.damping * rate, -near.pair.stiffness * near.foot.depth);
+}
+
+template <int dim>
 double ContactPotential<dim>::add_damping_forces(const std::vector<SpatialVector<dim>> &velocities,
                                                  std::vector<SpatialVector<dim>> &forces) const
 {
@@ -196,16 +213,9 @@ double ContactPotential<dim>::add_damping_forces(const std::vector<SpatialVector
   for_each_pair_deeper_than(0.,
                             [&](const NearPair &near)
                             {
-                              SpatialVector<dim> gap_rate = SpatialVector<dim>::Zero();
-                              for (unsigned int a = 0; a < near.stencil.n_nodes; ++a)
-                                gap_rate += near.stencil.weight[a] * velocities[near.stencil.node[a]];
-                              const double depth_rate = -near.foot.normal.dot(gap_rate);
-
-                              // What is added to k_A d may take all of it away, but not more: surfaces do not
-                              // stick.
-                              const double pressure = std::max(near.pair.damping * depth_rate,
-                                                               -near.pair.stiffness * near.foot.depth);
-                              power += near.pair.area * pressure * depth_rate;
+                              const double rate = depth_rate(near, velocities);
+                              const double pressure = damping_pressure(near, rate);
+                              power += near.pair.area * pressure * rate;
                               const SpatialVector<dim> force = near.pair.area * pressure * near.foot.normal;
                               for (unsigned int a = 0; a < near.stencil.n_nodes; ++a)
                                 forces[near.stencil.node[a]] += near.stencil.weight[a] * force;
@@ -312,6 +322,34 @@ void ContactPotential<dim>::add_to_measures(const NearPair &near, ContactMeasure
   measures.resultants[contactor.body] += force;
   if (near.target != nullptr)
     measures.resultants[near.target->body] -= force;
+}
+
+template <int dim>
+PairForces<dim> ContactPotential<dim>::pair_forces(const std::vector<SpatialVector<dim>> &velocities) const
+{
+  PairForces<dim> forces;
+  const bool is_damped = pairs.settings().damping_ratio && !velocities.empty();
+  const auto add = [](typename PairForces<dim>::Table &table, unsigned int one, unsigned int other,
+                      const SpatialVector<dim> &force) {
+    table.try_emplace({one, other}, SpatialVector<dim>::Zero()).first->second += force;
+  };
+  for_each_pair_deeper_than(0.,
+                            [&](const NearPair &near)
+                            {
+                              double pressure = near.pair.stiffness * near.foot.depth;
+                              if (is_damped)
+                                pressure += damping_pressure(near, depth_rate(near, velocities));
+                              const SpatialVector<dim> force = near.pair.area * pressure * near.foot.normal;
+                              const unsigned int body = surface.facets[near.pair.facet].body,
+                                                 other = near.pair.target;
+                              if (near.target == nullptr)
+                                add(forces.obstacles, body, other, force);
+                              else if (body < other)
+                                add(forces.bodies, body, other, force);
+                              else
+                                add(forces.bodies, other, body, -force);
+                            });
+  return forces;
 }
 
 template <int dim>

@@ -101,6 +101,38 @@ TYPED_TEST(ContactForces, ForcesOfBodiesBalance)
   }
 }
 
+TYPED_TEST(ContactForces, PairForceIsTheSumOverItsBody)
+{
+  constexpr int dim = TypeParam::dim;
+  BuiltScene<dim> built(make_overlapping_bodies<dim>(), TypeParam::degree);
+  contact::PotentialSettings settings = make_settings(Integration::face_quadrature);
+  settings.damping_ratio = .3;
+  const auto contact = built.add_contact(settings);
+  built.state.displacement = built.random_vector(.01);
+  contact->renew(built.state);
+  Vector force = built.force_of(*contact, built.state.displacement);
+  for (const bool is_damped : {false, true})
+  {
+    if (is_damped)
+    {
+      built.state.velocity = built.random_vector(1., 7);
+      Vector damping = built.discretization.make_vector();
+      contact->add_damping_force(built.state.velocity, damping);
+      built.discretization.collect(damping);
+      ASSERT_GT(damping.l2_norm(), 1e-3 * force.l2_norm());
+      force += damping;
+    }
+    SpatialVector<dim> sum = SpatialVector<dim>::Zero();
+    for (const OwnedNode<dim> &node : built.discretization.owned_nodes)
+      for (unsigned int d = 0; d < dim && node.body == 0; ++d)
+        sum[d] += force.local_element(node.dofs[d]);
+    const contact::PairForces<dim> pairs = contact->pair_forces(built.state);
+    EXPECT_TRUE(pairs.obstacles.empty());
+    ASSERT_EQ(pairs.bodies.size(), 1u);
+    EXPECT_LT((pairs.bodies.at({0, 1}) - sum).norm(), 1e-12 * sum.norm());
+  }
+}
+
 TYPED_TEST(ContactForces, OverlappingBlocksCarryStiffnessTimesDepth)
 {
   // Two cells of one size, one exactly over the other: W = ½ k_A d² A with k_A = α/(h_c/E_c + h_t/E_t).

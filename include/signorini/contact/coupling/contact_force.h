@@ -36,6 +36,10 @@ public:
   /// Of all ranks together.
   contact::ContactMeasures<dim> measure() const;
 
+  /// Resultants by pair over all ranks, the same on all of them, with the damping at the state's velocity
+  /// where it has one (collective).
+  contact::PairForces<dim> pair_forces(const State &state) const;
+
   /// Force by node of the whole surface, without damping, the same on all ranks [N] (collective).
   std::vector<SpatialVector<dim>> nodal_forces() const;
 

@@ -3,6 +3,8 @@
 
 #include "signorini/base/spatial_vector.h"
 
+#include <map>
+#include <utility>
 #include <vector>
 
 namespace signorini::contact
@@ -13,7 +15,7 @@ struct ContactMeasures
 {
   double max_penetration = 0.;                ///< [m]
   double max_penetration_over_thickness = 0.; ///< over the layer thickness h of the point's own facet
-  double max_pressure = 0.;                   ///< k_A d [Pa]
+  double max_pressure = 0.;                   ///< k_A d, per undeformed area [Pa]
   double max_stiffness = 0.;                  ///< k_A over all pairs [Pa/m]
   double area = 0.;                           ///< undeformed area under positive pressure [m²; m in 2-D]
   unsigned int n_pairs = 0;                   ///< point–target pairs in the list
@@ -24,6 +26,15 @@ struct ContactMeasures
       resultants; ///< contact force on every body [N; N/m in 2-D], without damping
 };
 
+/// Contact forces between those that touch, with damping where velocities were given [N; N/m in 2-D].
+template <int dim>
+struct PairForces
+{
+  using Table = std::map<std::pair<unsigned int, unsigned int>, SpatialVector<dim>>;
+  Table bodies;    ///< {one, other} with one < other: the force on `one`
+  Table obstacles; ///< {body, obstacle}: the force on the body
+};
+
 /// One sampled point with contact or near it, for reports.
 template <int dim>
 struct ContactSample
@@ -32,7 +43,7 @@ struct ContactSample
   LocalPoint<dim> xi = LocalPoint<dim>::Zero();
   SpatialVector<dim> position = SpatialVector<dim>::Zero();
   double depth = 0.;    ///< negative: a gap [m]
-  double pressure = 0.; ///< k_A d where positive [Pa]
+  double pressure = 0.; ///< k_A d where positive, per undeformed area [Pa]
 
   /// Undeformed area with which the point counts [m²; m in 2-D]: half of what it stands for where the other
   /// side deforms and is sampled too, so that pressure times area sums up to the resultant over both sides.

@@ -83,6 +83,9 @@ public:
 
   ContactMeasures<dim> measure() const;
 
+  /// Resultants by pair; with the damping of these velocities of the nodes, unless there are none.
+  PairForces<dim> pair_forces(const std::vector<SpatialVector<dim>> &velocities) const;
+
   /// All points in contact or less than a skin away whose facet faces the other surface.
   std::vector<ContactSample<dim>> samples() const;
 
@@ -108,6 +111,8 @@ private:
   void evaluate_body_pairs();
   void evaluate_obstacle_pairs();
   PairFoot<dim> evaluate_body_pair(const ContactPair<dim> &pair, double motion) const;
+  double depth_rate(const NearPair &near, const std::vector<SpatialVector<dim>> &velocities) const;
+  double damping_pressure(const NearPair &near, double depth_rate) const;
   void add_to_measures(const NearPair &near, ContactMeasures<dim> &measures) const;
 
   const ContactSurface<dim> &surface;

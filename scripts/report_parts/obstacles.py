@@ -1,0 +1,117 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The rigid obstacles of a run as translucent actors, cut off near the bodies. Reads parameters.prm as the run left it."""
+import re
+
+import numpy
+import vtk
+
+COLOUR, OPACITY = (0.36, 0.42, 0.5), 0.28
+MARGIN = 0.12  # around the bodies, as a share of the scene
+
+
+def read(path):
+    """Shape, point, normal and radius of every obstacle; none where the file is missing."""
+    obstacles, inside = [], []
+    for line in path.read_text(encoding="utf-8", errors="replace").splitlines() if path.is_file() else []:
+        words = line.split("#")[0].strip()
+        if words.startswith("subsection "):
+            inside.append(words[len("subsection "):].strip())
+            if len(inside) == 1 and inside[0].startswith("Obstacle "):
+                obstacles.append({})
+        elif words == "end":
+            inside = inside[:-1]
+        elif words.startswith("set ") and len(inside) == 1 and inside[0].startswith("Obstacle "):
+            key, _, value = words[len("set "):].partition("=")
+            obstacles[-1][key.strip()] = value.strip()
+    return obstacles
+
+
+def numbers(text, length=3):
+    values = [float(value) for value in re.split(r"\s*,\s*", text)]
+    return numpy.array((values + [0.0] * length)[:length])
+
+
+def make_actors(obstacles, lower, upper, flat, cut=None):
+    """One actor an obstacle, inside the bodies' box and a margin; `cut` is a plane that takes off the near side."""
+    extent = numpy.linalg.norm(upper - lower)
+    centre = (lower + upper) / 2
+    actors = []
+    for obstacle in obstacles:
+        function, foot = make_function(obstacle, centre, flat)
+        if numpy.linalg.norm(foot - centre) > 2 * extent:
+            continue
+        corners = numpy.minimum(lower, foot) - MARGIN * extent, numpy.maximum(upper, foot) + MARGIN * extent
+        source = (make_band if flat else make_surface)(function, *corners, extent)
+        if cut is not None:
+            source = clip(source.GetOutputPort(), cut, 0)
+        source.Update()
+        if source.GetOutput().GetNumberOfCells():
+            actors.append(translucent(source))
+    return actors
+
+
+def make_function(obstacle, centre, flat):
+    """The signed distance from the obstacle, positive outside, and its surface's point nearest to `centre`."""
+    point = numbers(obstacle.get("Point", "0, 0, 0"))
+    if obstacle.get("Shape", "plane") == "sphere":
+        radius = float(obstacle.get("Radius", 1))
+        arm = centre - point
+        function = vtk.vtkSphere()
+        function.SetCenter(*point)
+        function.SetRadius(radius)
+        return function, point + radius * arm / (numpy.linalg.norm(arm) or 1)
+    normal = numbers(obstacle.get("Normal", "0, 0, 1"))
+    normal[2] *= not flat
+    normal /= numpy.linalg.norm(normal)
+    function = vtk.vtkPlane()
+    function.SetOrigin(*point)
+    function.SetNormal(*normal)
+    return function, centre - normal * numpy.dot(centre - point, normal)
+
+
+def make_surface(function, lower, upper, _):
+    """The obstacle's surface inside a box."""
+    sample = vtk.vtkSampleFunction()
+    sample.SetImplicitFunction(function)
+    sample.SetModelBounds(*numpy.column_stack([lower, upper]).reshape(-1))
+    sample.SetSampleDimensions(80, 80, 80)
+    contour = vtk.vtkContourFilter()
+    contour.SetInputConnection(sample.GetOutputPort())
+    contour.SetValue(0, 0)
+    return contour
+
+
+def make_band(function, lower, upper, extent):
+    """The outer layer of the obstacle inside a rectangle."""
+    source = vtk.vtkPlaneSource()
+    source.SetOrigin(lower[0], lower[1], 0)
+    source.SetPoint1(upper[0], lower[1], 0)
+    source.SetPoint2(lower[0], upper[1], 0)
+    source.SetResolution(300, 300)
+    depth = 0.05 * extent
+    if isinstance(function, vtk.vtkSphere):
+        depth = max(function.GetRadius() ** 2 - max(function.GetRadius() - depth, 0) ** 2, 0)
+    triangles = vtk.vtkTriangleFilter()
+    triangles.SetInputConnection(source.GetOutputPort())
+    inside = clip(triangles.GetOutputPort(), function, 0, inside_out=True)
+    return clip(inside.GetOutputPort(), function, -depth)
+
+
+def clip(port, function, value, inside_out=False):
+    clipper = vtk.vtkClipPolyData()
+    clipper.SetInputConnection(port)
+    clipper.SetClipFunction(function)
+    clipper.SetValue(value)
+    clipper.SetInsideOut(inside_out)
+    return clipper
+
+
+def translucent(source):
+    mapper = vtk.vtkPolyDataMapper()
+    mapper.SetInputConnection(source.GetOutputPort())
+    mapper.ScalarVisibilityOff()
+    actor = vtk.vtkActor()
+    actor.SetMapper(mapper)
+    actor.GetProperty().SetColor(*COLOUR)
+    actor.GetProperty().SetOpacity(OPACITY)
+    return actor

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "signorini/output/earlier_output.h"
+
+#include "signorini/base/exceptions.h"
+
+#include <filesystem>
+#include <regex>
+#include <vector>
+
+namespace signorini
+{
+void remove_earlier_output(const std::string &directory)
+{
+  namespace files = std::filesystem;
+  const files::path folder(directory);
+  if (!files::exists(folder / "log.txt") || !files::exists(folder / "parameters.prm"))
+    return;
+  static const std::regex own(
+      "summary\\.json|profile\\.csv|report\\.html|report_[a-z_]+\\.png|solution\\.pvd|"
+      "solution_[0-9]{4,}(\\.pvtu|\\.[0-9]+\\.vtu)");
+  std::vector<files::path> earlier;
+  std::error_code failure;
+  for (const files::directory_entry &entry : files::directory_iterator(folder, failure))
+    if (std::regex_match(entry.path().filename().string(), own) && !entry.is_directory())
+      earlier.push_back(entry.path());
+  for (const files::path &path : earlier)
+    if (!files::remove(path, failure))
+      throw FileError("cannot remove '" + path.string() + "' of an earlier run");
+}
+} // namespace signorini

@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// What a Simulation takes down of a moment: forces by pair and support, motions by body, and their columns.
+#include "signorini/simulation/simulation.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+
+namespace signorini
+{
+namespace
+{
+/// In scenes of more bodies none has columns or resultants of its own.
+constexpr unsigned int max_n_bodies_by_name = 10;
+
+constexpr const char *force_unit(int dim)
+{
+  return dim == 2 ? "N/m" : "N";
+}
+
+bool may_touch(const ContactParameters &contact, const std::string &one, const std::string &other)
+{
+  return std::none_of(contact.excluded_pairs.begin(), contact.excluded_pairs.end(),
+                      [&](const auto &pair) {
+                        return (pair.first == one && pair.second == other) ||
+                               (pair.first == other && pair.second == one);
+                      });
+}
+
+template <int dim>
+void add_to(std::array<double, 3> &sum, const SpatialVector<dim> &vector, double factor)
+{
+  for (unsigned int d = 0; d < dim; ++d)
+    sum[d] += factor * vector[d];
+}
+
+template <int dim>
+std::array<double, 3> force_of_pair(const typename contact::PairForces<dim>::Table &table, unsigned int one,
+                                    unsigned int other)
+{
+  std::array<double, 3> force{};
+  const auto found = table.find({one, other});
+  if (found != table.end())
+    add_to<dim>(force, found->second, 1.);
+  return force;
+}
+} // namespace
+
+template <int dim>
+void Simulation<dim>::note_peaks()
+{
+  results.max_penetration = std::max(results.max_penetration, results.contact.max_penetration);
+  results.max_pressure = std::max(results.max_pressure, results.contact.max_pressure);
+  results.max_area = std::max(results.max_area, results.contact.area);
+}
+
+template <int dim>
+void Simulation<dim>::record_state()
+{
+  update_contact_measures();
+  note_peaks();
+  contact::PairForces<dim> pair_forces;
+  for (const auto &term : forces.contacts)
+  {
+    contact::PairForces<dim> of_term = term->pair_forces(state);
+    pair_forces.bodies.merge(of_term.bodies);
+    pair_forces.obstacles.merge(of_term.obstacles);
+  }
+  record_bodies(pair_forces);
+  record_contact_forces(pair_forces);
+}
+
+template <int dim>
+void Simulation<dim>::record_bodies(const contact::PairForces<dim> &pair_forces)
+{
+  std::vector<BodyRecord> records(scene.n_bodies());
+  for (const auto &[pair, force] : pair_forces.bodies)
+  {
+    add_to<dim>(records[pair.first].contact_force, force, 1.);
+    add_to<dim>(records[pair.second].contact_force, force, -1.);
+  }
+  for (const auto &[pair, force] : pair_forces.obstacles)
+    add_to<dim>(records[pair.first].contact_force, force, 1.);
+
+  const bool is_moving = state.velocity.size() > 0;
+  std::vector<double> sums(2 * dim * scene.n_bodies(), 0.);
+  for (const OwnedNode<dim> &node : discretization->owned_nodes)
+    for (unsigned int d = 0; d < dim; ++d)
+    {
+      double *sum = &sums[2 * (dim * node.body + d)];
+      const double volume = nodal_volume.local_element(node.dofs[d]);
+      sum[0] += volume * state.displacement.local_element(node.dofs[d]);
+      sum[1] += is_moving ? volume * state.velocity.local_element(node.dofs[d]) : 0.;
+    }
+  dealii::Utilities::MPI::sum(sums, communicator, sums);
+  for (unsigned int body = 0; body < scene.n_bodies(); ++body)
+    for (unsigned int d = 0; d < dim; ++d)
+    {
+      records[body].displacement[d] = sums[2 * (dim * body + d)] / results.body_volumes[body];
+      records[body].velocity[d] = sums[2 * (dim * body + d) + 1] / results.body_volumes[body];
+    }
+  results.history.push_back({state.time, records});
+}
+
+template <int dim>
+void Simulation<dim>::record_contact_forces(const contact::PairForces<dim> &pair_forces)
+{
+  results.resultants.clear();
+  if (!parameters.contact)
+    return;
+  const bool is_by_body = scene.n_bodies() <= max_n_bodies_by_name;
+  for (unsigned int one = 0; one < scene.n_bodies() && is_by_body; ++one)
+    for (unsigned int other = one + 1; other < scene.n_bodies(); ++other)
+      if (may_touch(*parameters.contact, scene.body_names[one], scene.body_names[other]))
+        results.resultants.push_back({scene.body_names[one], scene.body_names[other],
+                                      force_of_pair<dim>(pair_forces.bodies, one, other)});
+  for (unsigned int obstacle = 0; obstacle < scene.obstacles.size(); ++obstacle)
+  {
+    const std::string &name = scene.obstacles[obstacle]->name();
+    ContactResultant on_all{"all bodies", name, {}};
+    for (unsigned int body = 0; body < scene.n_bodies(); ++body)
+    {
+      const std::array<double, 3> force = force_of_pair<dim>(pair_forces.obstacles, body, obstacle);
+      if (is_by_body && may_touch(*parameters.contact, scene.body_names[body], name))
+        results.resultants.push_back({scene.body_names[body], name, force});
+      for (unsigned int d = 0; d < 3; ++d)
+        on_all.force[d] += force[d];
+    }
+    if (!is_by_body)
+      results.resultants.push_back(on_all);
+  }
+}
+
+template <int dim>
+void Simulation<dim>::record_support_forces(const Vector &reactions)
+{
+  std::vector<double> sums(scene.supports.size(), 0.);
+  for (const auto &entry : supports->entries())
+    if (discretization->owned_dofs.is_element(entry.dof))
+      sums[entry.support] += reactions(entry.dof);
+  dealii::Utilities::MPI::sum(sums, communicator, sums);
+  results.support_forces.clear();
+  for (unsigned int i = 0; i < sums.size(); ++i)
+  {
+    const Support<dim> &support = scene.supports[i];
+    results.support_forces.push_back(
+        {scene.body_names[support.body], support.boundary, support.component, sums[i]});
+  }
+}
+
+template <int dim>
+void Simulation<dim>::append_contact(Statistics::Row &row) const
+{
+  const auto &contact = results.contact;
+  row.emplace_back(dim == 2 ? "contact area [m]" : "contact area [m2]", contact.area);
+  row.emplace_back("max penetration [m]", contact.max_penetration);
+  row.emplace_back("max penetration over h [1]", contact.max_penetration_over_thickness);
+  row.emplace_back("max pressure [Pa]", contact.max_pressure);
+  row.emplace_back("points in contact [1]", contact.n_active);
+}
+
+template <int dim>
+void Simulation<dim>::append_resultants(Statistics::Row &row) const
+{
+  for (const ContactResultant &resultant : results.resultants)
+    for (unsigned int d = 0; d < dim; ++d)
+      row.emplace_back(fmt::format("contact force {} on {} from {} [{}]", "xyz"[d], resultant.on,
+                                   resultant.from, force_unit(dim)),
+                       resultant.force[d]);
+  for (const SupportForce &support : results.support_forces)
+    row.emplace_back(fmt::format("support force {} on {} at {} [{}]", "xyz"[support.component], support.body,
+                                 support.boundary, force_unit(dim)),
+                     support.force);
+}
+
+template <int dim>
+void Simulation<dim>::append_bodies(Statistics::Row &row) const
+{
+  if (scene.n_bodies() > max_n_bodies_by_name)
+    return;
+  const std::vector<BodyRecord> &bodies = results.history.back().bodies;
+  for (unsigned int body = 0; body < scene.n_bodies(); ++body)
+    for (unsigned int d = 0; d < dim; ++d)
+      row.emplace_back(fmt::format("mean displacement {} of {} [m]", "xyz"[d], scene.body_names[body]),
+                       bodies[body].displacement[d]);
+  for (unsigned int body = 0; body < scene.n_bodies() && state.velocity.size() > 0; ++body)
+    for (unsigned int d = 0; d < dim; ++d)
+      row.emplace_back(fmt::format("mean velocity {} of {} [m/s]", "xyz"[d], scene.body_names[body]),
+                       bodies[body].velocity[d]);
+}
+
+template class Simulation<2>;
+template class Simulation<3>;
+} // namespace signorini
