@@ -12,7 +12,7 @@ namespace signorini
 {
 namespace
 {
-/// A facet as it travels between ranks: body, thickness, n_nodes, then for every node its dofs and position.
+/// A facet as it travels between ranks: body, thickness, room, then for every node its dofs and position.
 template <int dim>
 struct TravellingNode
 {
@@ -61,8 +61,9 @@ std::vector<double> pack_own_facets(const Discretization<dim> &discretization)
   std::vector<TravellingNode<dim>> nodes(element.n_dofs_per_face() / dim);
   for (const auto &cell : discretization.dof_handler.active_cell_iterators())
     if (cell->is_locally_owned() && cell->at_boundary())
-      for (const auto &face : cell->face_iterators())
+      for (const unsigned int face_number : cell->face_indices())
       {
+        const auto face = cell->face(face_number);
         if (!face->at_boundary())
           continue;
         face->get_dof_indices(face_dofs);
@@ -80,7 +81,9 @@ std::vector<double> pack_own_facets(const Discretization<dim> &discretization)
           turn_around(nodes, element.degree);
 
         packed.push_back(cell->material_id());
-        packed.push_back(cell->measure() / face->measure());
+        const double thickness = cell->measure() / face->measure();
+        const bool is_whole_body = cell->face(face_number ^ 1u)->at_boundary(); // the face across
+        packed.insert(packed.end(), {thickness, (is_whole_body ? 0.5 : 1.) * thickness});
         for (const auto &node : nodes)
         {
           packed.insert(packed.end(), node.dofs.begin(), node.dofs.end());
@@ -131,6 +134,7 @@ void SurfaceMap<dim>::number_nodes(const std::vector<std::vector<double>> &packe
       facet.owned = (rank == this_rank);
       facet.body = static_cast<unsigned int>(*value++);
       facet.layer_thickness = *value++;
+      facet.room = *value++;
       for (unsigned int i = 0; i < facet.n_nodes(); ++i)
       {
         std::array<dealii::types::global_dof_index, dim> node_dofs;

@@ -73,6 +73,7 @@ private:
     facet.degree = p;
     facet.body = surface.n_bodies;
     facet.layer_thickness = box.size[axis] / box.n_faces;
+    facet.room = (box.n_faces == 1 ? .5 : 1.) * facet.layer_thickness;
     facet.youngs_modulus = box.youngs_modulus;
     facet.density = box.density;
     const bool reversed = dim == 2 ? (axis == 0) != (side == 1) : side == 0;

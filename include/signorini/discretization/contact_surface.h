@@ -23,8 +23,10 @@ struct Facet
   unsigned int body = 0;       ///< index of the body it belongs to
   bool owned = true;           ///< whether this rank integrates over it
   double layer_thickness = 0.; ///< h: size of the element behind the face, along its normal [m]
-  double youngs_modulus = 0.;  ///< E of that element [Pa]
-  double density = 0.;         ///< ρ of that element [kg/m³]
+  double room = 0.; ///< depth down to which the nearest way out leads through this face: h, or h/2 where the
+                    ///< body is one element thick [m]
+  double youngs_modulus = 0.; ///< E of that element [Pa]
+  double density = 0.;        ///< ρ of that element [kg/m³]
 
   unsigned int n_nodes() const { return dim == 2 ? degree + 1 : (degree + 1) * (degree + 1); }
 };

@@ -311,9 +311,11 @@ void ContactPotential<dim>::add_to_measures(const NearPair &near, ContactMeasure
   measures.area += near.pair.area;
   measures.max_penetration = std::max(measures.max_penetration, depth);
   measures.max_pressure = std::max(measures.max_pressure, near.pair.stiffness * depth);
-  if (depth / contactor.layer_thickness > measures.max_penetration_over_thickness)
+  const double thickness = near.target == nullptr ? contactor.layer_thickness
+                                                  : std::min(contactor.layer_thickness, near.target->room);
+  if (depth / thickness > measures.max_penetration_over_thickness)
   {
-    measures.max_penetration_over_thickness = depth / contactor.layer_thickness;
+    measures.max_penetration_over_thickness = depth / thickness;
     measures.deepest_facet = near.pair.facet;
     measures.deepest_position = near.foot.position;
   }

@@ -133,8 +133,13 @@ TYPED_TEST(SurfaceMaps, FacetsKnowTheLayerBehindThem)
   const std::array<double, 3> thickness{1.5, .9, .375};
   std::array<unsigned int, 3> n_found{};
   for (const Facet<dim> &facet : built.map.surface().facets)
-    if (facet.body == 1)
+    if (facet.body == 0) // one cell
     {
+      EXPECT_NEAR(facet.room, .5 * facet.layer_thickness, 1e-12);
+    }
+    else
+    {
+      EXPECT_EQ(facet.room, facet.layer_thickness);
       EXPECT_EQ(facet.degree, TypeParam::degree);
       EXPECT_EQ(facet.youngs_modulus, 77.);
       EXPECT_EQ(facet.density, 5.);

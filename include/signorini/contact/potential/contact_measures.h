@@ -13,14 +13,15 @@ namespace signorini::contact
 template <int dim>
 struct ContactMeasures
 {
-  double max_penetration = 0.;                ///< [m]
-  double max_penetration_over_thickness = 0.; ///< over the layer thickness h of the point's own facet
-  double max_pressure = 0.;                   ///< k_A d, per undeformed area [Pa]
-  double max_stiffness = 0.;                  ///< k_A over all pairs [Pa/m]
-  double area = 0.;                           ///< undeformed area under positive pressure [m²; m in 2-D]
-  unsigned int n_pairs = 0;                   ///< point–target pairs in the list
-  unsigned int n_active = 0;                  ///< of these, those with positive depth
-  unsigned int deepest_facet = 0;             ///< where max_penetration_over_thickness is reached
+  double max_penetration = 0.; ///< [m]
+  double max_penetration_over_thickness =
+      0.;                         ///< over the h of the point's own facet, or the target's room if less
+  double max_pressure = 0.;       ///< k_A d, per undeformed area [Pa]
+  double max_stiffness = 0.;      ///< k_A over all pairs [Pa/m]
+  double area = 0.;               ///< undeformed area under positive pressure [m²; m in 2-D]
+  unsigned int n_pairs = 0;       ///< point–target pairs in the list
+  unsigned int n_active = 0;      ///< of these, those with positive depth
+  unsigned int deepest_facet = 0; ///< where max_penetration_over_thickness is reached
   SpatialVector<dim> deepest_position = SpatialVector<dim>::Zero();
   std::vector<SpatialVector<dim>>
       resultants; ///< contact force on every body [N; N/m in 2-D], without damping
