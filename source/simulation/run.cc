@@ -5,6 +5,7 @@
 #include "signorini/parameters/print_parameters.h"
 #include "signorini/parameters/read_parameters.h"
 #include "signorini/simulation/simulation.h"
+#include "signorini/simulation/size_estimate.h"
 
 #include <filesystem>
 #include <fstream>
@@ -44,6 +45,7 @@ void run(const CommandLine &command_line, const MPI_Comm &communicator)
 {
   const ParameterText text = read_parameter_text(command_line);
   const Parameters parameters = read_parameters(text);
+  check_size(parameters, communicator);
   if (parameters.dimension == 2)
     run<2>(command_line, text, parameters, communicator);
   else

@@ -29,7 +29,7 @@ void Simulation<dim>::run_explicit(const ExplicitParameters &solver_parameters)
   {
     const double remaining = end - state.time, stable = solver.stable_step();
     const double time_step =
-        remaining > 2. * stable ? stable : remaining / std::ceil(remaining / stable - 1e-9);
+        remaining > 2. * stable ? stable : remaining / std::max(1., std::ceil(remaining / stable - 1e-9));
     solver.step(time_step, state);
     if (end - state.time < 1e-9 * time_step)
       state.time = end;
