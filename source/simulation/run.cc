@@ -45,7 +45,7 @@ void run(const CommandLine &command_line, const MPI_Comm &communicator)
 {
   const ParameterText text = read_parameter_text(command_line);
   const Parameters parameters = read_parameters(text);
-  check_size(parameters, communicator);
+  check_size(text, parameters, communicator);
   if (parameters.dimension == 2)
     run<2>(command_line, text, parameters, communicator);
   else

@@ -109,7 +109,7 @@ SizeEstimate estimate_size(const Parameters &parameters, unsigned int n_ranks)
   return size;
 }
 
-void check_size(const Parameters &parameters, const MPI_Comm &communicator)
+void check_size(const ParameterText &text, const Parameters &parameters, const MPI_Comm &communicator)
 {
   const SizeEstimate size = estimate_size(parameters, dealii::Utilities::MPI::n_mpi_processes(communicator));
   const double available = available_memory(communicator);
@@ -118,7 +118,7 @@ void check_size(const Parameters &parameters, const MPI_Comm &communicator)
   constexpr double gigabyte = 1e9;
   throw InputError(
       Complaint("the meshes are too large for the memory of this machine")
-          .at("subsection Body " + size.largest->name + "/Mesh")
+          .at(text.where("Body " + size.largest->name + "/Mesh"))
           .found(
               fmt::format("about {:.3g} cells and {:.3g} degrees of freedom, which take at least {:.3g} GB",
                           size.n_cells, size.n_dofs, size.memory / gigabyte))

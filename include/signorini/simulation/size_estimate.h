@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
+#include "signorini/parameters/parameter_text.h"
 #include "signorini/parameters/parameters.h"
 
 #include <mpi.h>
@@ -20,5 +21,5 @@ SizeEstimate estimate_size(const Parameters &parameters, unsigned int n_ranks);
 
 /// Throws InputError, before any mesh is made, if the run needs more memory than the machines of all ranks
 /// have. Collective.
-void check_size(const Parameters &parameters, const MPI_Comm &communicator);
+void check_size(const ParameterText &text, const Parameters &parameters, const MPI_Comm &communicator);
 } // namespace signorini
