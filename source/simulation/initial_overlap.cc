@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "signorini/simulation/initial_overlap.h"
 
+#include "signorini/contact/geometry/facet_shape.h"
 #include "signorini/parameters/contact_parameters.h"
 
 #include <deal.II/base/mpi.h>
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace signorini
@@ -27,6 +30,12 @@ SpatialVector<dim> to_eigen(const dealii::Point<dim> &x)
   return Eigen::Map<const SpatialVector<dim>>(x.begin_raw());
 }
 
+/// Whether a point lies deeper than another, beyond round-off, which must not choose among equals.
+bool is_deeper(double depth, double other_depth)
+{
+  return depth > (1. + 1e-9) * other_depth;
+}
+
 /// Of overlaps found on several ranks the deepest one.
 template <int dim>
 std::optional<InitialOverlap<dim>> choose_deepest(const std::optional<InitialOverlap<dim>> &own,
@@ -40,10 +49,39 @@ std::optional<InitialOverlap<dim>> choose_deepest(const std::optional<InitialOve
   }
   std::optional<InitialOverlap<dim>> deepest;
   for (const std::vector<double> &of_rank : dealii::Utilities::MPI::all_gather(communicator, packed))
-    if (!of_rank.empty() && (!deepest || of_rank[2] > deepest->depth))
+    if (!of_rank.empty() && (!deepest || is_deeper(of_rank[2], deepest->depth)))
       deepest = {static_cast<unsigned int>(of_rank[0]), static_cast<unsigned int>(of_rank[1]), of_rank[2],
                  of_rank[3], SpatialVector<dim>(&of_rank[4])};
   return deepest;
+}
+
+/// Points of a facet no farther apart than half the thickness of the element behind it: what lies across a
+/// long element may hold none of its nodes.
+template <int dim>
+std::vector<SpatialVector<dim>> sprinkle(const Facet<dim> &facet,
+                                         const std::vector<SpatialVector<dim>> &positions)
+{
+  constexpr double most = 64.;
+  const auto nodes = contact::gather_nodes(facet, positions);
+  std::array<unsigned int, 2> n_steps{{0, 0}};
+  for (unsigned int direction = 0; direction < dim - 1; ++direction)
+  {
+    const unsigned int end = facet.degree * (direction == 0 ? 1 : facet.degree + 1);
+    const double length = (nodes.position[end] - nodes.position[0]).norm();
+    n_steps[direction] =
+        static_cast<unsigned int>(std::clamp(std::ceil(2. * length / facet.layer_thickness), 1., most));
+  }
+  std::vector<SpatialVector<dim>> points;
+  for (unsigned int j = 0; j <= n_steps[1]; ++j)
+    for (unsigned int i = 0; i <= n_steps[0]; ++i)
+    {
+      LocalPoint<dim> xi;
+      xi[0] = static_cast<double>(i) / n_steps[0];
+      if constexpr (dim == 3)
+        xi[1] = static_cast<double>(j) / n_steps[1];
+      points.push_back(contact::evaluate_facet_frame(nodes, xi).position);
+    }
+  return points;
 }
 } // namespace
 
@@ -99,6 +137,26 @@ InitialOverlap<dim> OverlapSearch<dim>::find_at(unsigned int body, const Spatial
 }
 
 template <int dim>
+void OverlapSearch<dim>::for_each_point(
+    const std::function<void(unsigned int, const SpatialVector<dim> &)> &visit) const
+{
+  for (const OwnedNode<dim> &node : discretization.owned_nodes)
+  {
+    SpatialVector<dim> x = to_eigen<dim>(node.position);
+    for (unsigned int d = 0; d < dim; ++d)
+      x[d] += displacement.local_element(node.dofs[d]);
+    visit(node.body, x);
+  }
+  for (const auto &cell : discretization.mesh->active_cell_iterators())
+    if (cell->is_locally_owned())
+      visit(cell->material_id(), to_eigen<dim>(cell->center()));
+  for (const Facet<dim> &facet : surface.facets)
+    if (facet.owned)
+      for (const SpatialVector<dim> &x : sprinkle(facet, positions))
+        visit(facet.body, x);
+}
+
+template <int dim>
 std::optional<InitialOverlap<dim>> OverlapSearch<dim>::find_on_this_rank(double allowed) const
 {
   // A scene this wrong needs no exhaustive search: the deepest of so many points tells enough.
@@ -107,24 +165,16 @@ std::optional<InitialOverlap<dim>> OverlapSearch<dim>::find_on_this_rank(double 
   std::optional<InitialOverlap<dim>> deepest;
   const auto look_at = [&](unsigned int body, const SpatialVector<dim> &point)
   {
+    if (n_found >= enough)
+      return;
     const auto overlap = find_in_bodies(body, point);
     if (!overlap || overlap->depth <= allowed * overlap->thickness)
       return;
     ++n_found;
-    if (!deepest || overlap->depth > deepest->depth)
+    if (!deepest || is_deeper(overlap->depth, deepest->depth))
       deepest = overlap;
   };
-  for (const OwnedNode<dim> &node : discretization.owned_nodes)
-  {
-    SpatialVector<dim> x = to_eigen<dim>(node.position);
-    for (unsigned int d = 0; d < dim; ++d)
-      x[d] += displacement.local_element(node.dofs[d]);
-    if (n_found < enough)
-      look_at(node.body, x);
-  }
-  for (const auto &cell : discretization.mesh->active_cell_iterators())
-    if (cell->is_locally_owned() && n_found < enough)
-      look_at(cell->material_id(), to_eigen<dim>(cell->center()));
+  for_each_point(look_at);
   return deepest;
 }
 

@@ -32,8 +32,8 @@ public:
                 const Discretization<dim> &discretization, const SurfaceMap<dim> &surface_map,
                 const Vector &displacement);
 
-  /// A node or a centre of a cell that lies deeper in another body than `allowed` elements, or the centre of
-  /// a sphere in a body; on every rank the same.
+  /// A node, a centre of a cell or a point of the surface that lies deeper in another body than `allowed`
+  /// elements, or the centre of a sphere in a body; on every rank the same.
   std::optional<InitialOverlap<dim>> find_gross(double allowed) const;
 
   /// What a point of a body lies deepest in; it must lie in something.
@@ -46,6 +46,8 @@ public:
   SpatialVector<dim> find_shift(const InitialOverlap<dim> &overlap) const;
 
 private:
+  /// All points of this rank that are looked at, with their bodies.
+  void for_each_point(const std::function<void(unsigned int, const SpatialVector<dim> &)> &visit) const;
   std::optional<InitialOverlap<dim>> find_on_this_rank(double allowed) const;
   std::optional<InitialOverlap<dim>> find_in_bodies(unsigned int body, const SpatialVector<dim> &point) const;
   std::optional<InitialOverlap<dim>> find_swallowed_sphere() const;
