@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "signorini/discretization/supports.h"
 
+#include "signorini/base/collective_error.h"
 #include "signorini/base/exceptions.h"
 #include "signorini/discretization/scene_mesh.h"
 
@@ -131,8 +132,12 @@ double SupportedDofs<dim>::value(const Entry &entry, double t) const
 template <int dim>
 void SupportedDofs<dim>::impose(double t, Vector &displacement) const
 {
-  for (unsigned int i = 0; i < owned.size(); ++i)
-    displacement.local_element(owned[i]) = value(all[owned_entries[i]], t);
+  const auto impose_own = [&]()
+  {
+    for (unsigned int i = 0; i < owned.size(); ++i)
+      displacement.local_element(owned[i]) = value(all[owned_entries[i]], t);
+  };
+  throw_together(displacement.get_mpi_communicator(), impose_own);
 }
 
 template <int dim>

@@ -8,6 +8,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 namespace signorini
 {
@@ -32,7 +34,7 @@ void declare_placement(Declarations &declarations, const DeclarationScope &scope
   if (scope.dimension == 3)
     placement.add("Rotation axis", scope.vector(), "0, 0, 1", "",
                   "Direction of the axis of rotation, of any length but zero; not in 2-D.");
-  placement.add("Scale", number_above(0.), "1", "", "Factor of all lengths of the mesh.");
+  placement.add("Scale", positive_length(), "1", "", "Factor of all lengths of the mesh.");
 }
 
 void declare_material(Declarations &declarations, const std::string &path)
@@ -40,9 +42,9 @@ void declare_material(Declarations &declarations, const std::string &path)
   SubsectionDeclaration material(declarations, path, "The material of the body; plane strain in 2-D.");
   material.add("Model", one_of(names_in(models())), "linear elastic", "",
                "Small strain, or compressible finite strain; a body that rotates needs the latter.");
-  material.add_required("Young's modulus", number_above(0.), "Pa", "Stiffness in uniaxial tension.");
+  material.add_required("Young's modulus", positive_number(), "Pa", "Stiffness in uniaxial tension.");
   material.add_required("Poisson's ratio", number_between(-1., 0.5), "", "Transverse contraction.");
-  material.add("Density", number_above(0.), "", "kg/m³",
+  material.add("Density", positive_number(), "", "kg/m³",
                "Mass per undeformed volume; needed in explicit runs and with gravity.");
 }
 
@@ -146,14 +148,17 @@ std::string read_boundary(const SectionReader &section, const std::string &prefi
   return boundary;
 }
 
-SupportParameters read_support(const SectionReader &section, const BodyParameters &body,
+SupportParameters read_support(const SectionReader &section, const std::string &boundary,
                                const unsigned int dimension)
 {
   SupportParameters support;
-  support.boundary = read_boundary(section, "Support ", body, dimension);
+  support.boundary = boundary;
   for (unsigned int c = 0; c < dimension; ++c)
     if (const std::string key(1, "xyz"[c]); section.given(key))
+    {
       support.displacement[c] = section.value(key);
+      support.places[c] = section.place(key);
+    }
   if (std::none_of(support.displacement.begin(), support.displacement.end(),
                    [](const auto &component) { return component.has_value(); }))
     throw InputError(section.complain("a support holds no component")
@@ -162,11 +167,10 @@ SupportParameters read_support(const SectionReader &section, const BodyParameter
   return support;
 }
 
-LoadParameters read_load(const SectionReader &section, const BodyParameters &body,
+LoadParameters read_load(const SectionReader &section, const std::string &boundary,
                          const unsigned int dimension)
 {
-  LoadParameters load;
-  load.boundary = read_boundary(section, "Load ", body, dimension);
+  LoadParameters load{boundary, {{"0", "0", "0"}}, section.place("Traction")};
   const std::vector<std::string> parts = split(section.value("Traction"), ';');
   const bool complete =
       std::none_of(parts.begin(), parts.end(), [](const auto &part) { return part.empty(); });
@@ -179,6 +183,36 @@ LoadParameters read_load(const SectionReader &section, const BodyParameters &bod
             .advise(dimension == 3 ? "write for example 0; 0; -1e6*t" : "write for example 0; -1e6*t"));
   std::copy(parts.begin(), parts.end(), load.traction.begin());
   return load;
+}
+
+/// Throws for a body so far from the origin, or so thin, that its coordinates have no digits left for its
+/// shape.
+void check_digits(const SectionReader &mesh, const BodyParameters &body, const unsigned int dimension)
+{
+  constexpr double largest_ratio = 1e9;
+  Triple low{}, high{};
+  low.fill(std::numeric_limits<double>::max());
+  high.fill(-std::numeric_limits<double>::max());
+  for (const std::string &boundary : boundary_names(body.mesh, dimension))
+    for (const Triple &point : boundary_points(body.mesh, dimension, boundary))
+      for (unsigned int c = 0; c < dimension; ++c)
+      {
+        low[c] = std::min(low[c], point[c]);
+        high[c] = std::max(high[c], point[c]);
+      }
+  double smallest = std::numeric_limits<double>::max(), farthest = 0.;
+  for (unsigned int c = 0; c < dimension; ++c)
+  {
+    const double scale = body.placement.scale;
+    smallest = std::min(smallest, scale * (high[c] - low[c]));
+    farthest = std::max(farthest, scale * std::max(-low[c], high[c]) + std::abs(body.placement.shift[c]));
+  }
+  if (!(smallest * largest_ratio >= farthest) || !positive_length().contains(fmt::format("{}", smallest)))
+    throw InputError(mesh.complain(fmt::format("body '{}' is too small to be told from a point", body.name))
+                         .found(fmt::format("{} m thick, at coordinates up to {} m", smallest, farthest))
+                         .expected(fmt::format("{} m, and more than {:.0e} of its largest coordinate",
+                                               positive_length().description(), 1. / largest_ratio))
+                         .advise("enlarge it, or put it nearer to the origin"));
 }
 } // namespace
 
@@ -204,26 +238,23 @@ BodyParameters read_body(const ParameterText &text, const Declarations &in_use, 
   const std::string path = "Body " + name;
   const auto section = [&](const std::string &subsection)
   { return SectionReader(text, in_use, join_path(path, subsection), dimension); };
-  const auto line_of = [&](const std::string &subsection)
-  { return text.find_subsection(join_path(path, subsection))->line; };
   BodyParameters body;
   body.name = name;
   body.mesh = read_mesh(text, in_use, path + "/Mesh", dimension);
   if (text.find_subsection(path + "/Placement") != nullptr)
     body.placement = read_placement(section("Placement"), dimension);
+  check_digits(section("Mesh"), body, dimension);
   body.material = read_material(section("Material"));
   if (text.find_subsection(path + "/Initial motion") != nullptr)
     read_motion(section("Initial motion"), dimension, body);
-  for (const std::string &support : text.names_below(path, "Support "))
+  const auto read_each = [&](const std::string &prefix, const auto &read_entry, auto &entries)
   {
-    body.supports.push_back(read_support(section(support), body, dimension));
-    body.supports.back().line = line_of(support);
-  }
-  for (const std::string &load : text.names_below(path, "Load "))
-  {
-    body.loads.push_back(read_load(section(load), body, dimension));
-    body.loads.back().line = line_of(load);
-  }
+    for (const std::string &entry : text.names_below(path, prefix))
+      entries.push_back(
+          read_entry(section(entry), read_boundary(section(entry), prefix, body, dimension), dimension));
+  };
+  read_each("Support ", read_support, body.supports);
+  read_each("Load ", read_load, body.loads);
   return body;
 }
 } // namespace signorini

@@ -77,7 +77,7 @@ void declare_obstacle(Declarations &declarations, const DeclarationScope &scope,
     obstacle.add("Normal", scope.vector(), scope.dimension == 3 ? "0, 0, 1" : "0, 1", "",
                  "Plane: points to where bodies may be, of any length but zero.");
   if (scope.chosen(path, "Shape", "sphere", "plane"))
-    obstacle.add("Radius", number_above(0.), "1", "m", "Sphere: radius.");
+    obstacle.add("Radius", positive_length(), "1", "m", "Sphere: radius.");
 }
 
 ObstacleParameters read_obstacle(const ParameterText &text, const Declarations &in_use,
@@ -106,7 +106,7 @@ void declare_contact(Declarations &declarations, const DeclarationScope &scope)
 {
   SubsectionDeclaration contact(declarations, "Contact",
                                 "Contact of bodies with each other and with obstacles.");
-  contact.add("Penalty factor", number_above(0.), "10", "",
+  contact.add("Penalty factor", positive_number(), "10", "",
               "α: stiffness of the contact relative to that of the cells behind it.");
   contact.add("Integration", one_of(names_in(integrations())), "automatic", "",
               "Automatic: face segments in quasi-static runs, face quadrature in explicit ones.");
@@ -137,5 +137,12 @@ ContactParameters read_contact(const ParameterText &text, const Declarations &in
     contact.damping =
         DampingParameters{SectionReader(text, in_use, "Contact/Damping", 3).number("Damping ratio")};
   return contact;
+}
+
+bool is_pair_excluded(const ContactParameters &contact, const std::string &one, const std::string &other)
+{
+  return std::any_of(contact.excluded_pairs.begin(), contact.excluded_pairs.end(),
+                     [&](const auto &pair)
+                     { return pair == std::pair(one, other) || pair == std::pair(other, one); });
 }
 } // namespace signorini

@@ -32,21 +32,29 @@ struct ExactSolutionCase
 
 const std::vector<ExactSolutionCase> &exact_solutions()
 {
-  static const ExactSolutionKey radius{"Radius", number_above(0.), "", "m",
-                                       "Hertz: radius of the round body."};
+  static const ExactSolutionKey radius{"Radius", positive_length(), "", "m",
+                                       "Hertz: radius of the round body, for two round bodies the effective "
+                                       "one 1/(1/R1 + 1/R2); must agree with the meshes within 1e-6."};
   static const ExactSolutionKey fraction{
       "Fraction of the contact", number_above_up_to(0., 1.), "1", "",
       "Hertz: share of the contact that is modelled, such as 0.25 for a quarter."};
-  static const ExactSolutionKey pressure{"Pressure", number_above(0.), "", "Pa",
-                                         "Patch: uniform contact pressure."};
+  static const ExactSolutionKey pressure{
+      "Pressure", positive_number(), "", "Pa",
+      "Patch: uniform contact pressure; must be that of the loads at the end time."};
   static const std::vector<ExactSolutionCase> table{
-      {"Hertz sphere", {radius, fraction}, {dimension_equal_to(3), one_touching_pair(), contact()}},
-      {"Hertz cylinder", {radius, fraction}, {dimension_equal_to(2), one_touching_pair(), contact()}},
+      {"Hertz sphere",
+       {radius, fraction},
+       {dimension_equal_to(3), one_touching_pair(), contact(), matching_radius()}},
+      {"Hertz cylinder",
+       {radius, fraction},
+       {dimension_equal_to(2), one_touching_pair(), contact(), matching_radius()}},
       {"Squeezed bars",
        {},
        {quasi_static_run(), number_of_bodies(2), boxes_only(), number_of_obstacles(0), contact(),
         shifts_only()}},
-      {"Patch", {pressure}, {quasi_static_run(), number_of_bodies(2), contact(), a_load()}},
+      {"Patch",
+       {pressure},
+       {quasi_static_run(), number_of_bodies(2), contact(), a_load(), matching_pressure()}},
       {"Bar impact",
        {},
        {explicit_run(), number_of_bodies(2), equal_boxes(), number_of_obstacles(0), contact(),

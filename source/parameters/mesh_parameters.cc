@@ -35,7 +35,7 @@ void declare_grading(Declarations &declarations, const DeclarationScope &scope, 
               "Centre of refinement, in the body's coordinates before placement.");
   grading.add("Boundary", any_text(), "", "",
               "Boundary towards which cells are refined, instead of a point.");
-  grading.add_required("Distance", number_above(0.), "m",
+  grading.add_required("Distance", positive_length(), "m",
                        "Cells nearer than this are refined by all levels.");
   grading.add("Levels", integer_from(1, 12), "1", "",
               "Additional refinements there; each level less doubles the distance.");
@@ -167,9 +167,9 @@ void declare_mesh(Declarations &declarations, const DeclarationScope &scope, con
              scope.components("1, 1, 1"), "", "Box: coarse cells in each direction.");
   }
   if (shape_is("ball") || shape_is("cylinder"))
-    mesh.add("Radius", number_above(0.), "1", "m", "Ball and cylinder: radius.");
+    mesh.add("Radius", positive_length(), "1", "m", "Ball and cylinder: radius.");
   if (shape_is("cylinder"))
-    mesh.add("Length", number_above(0.), "1", "m", "Cylinder: length along the z axis.");
+    mesh.add("Length", positive_length(), "1", "m", "Cylinder: length along the z axis.");
   mesh.add("Refinements", integer_from(0, 12), "0", "",
            "How often all coarse cells are halved in each direction.");
   if (scope.includes(join_path(path, "Grading")))

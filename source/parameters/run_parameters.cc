@@ -18,18 +18,75 @@ const NameTable<QuasiStaticParameters::LinearSolver> &linear_solvers()
   return table;
 }
 
+/// An entry with the member that it fills.
+template <typename Run>
+struct RunEntry
+{
+  std::string key;
+  ValueRange range;
+  std::string default_value;
+  std::string unit;
+  std::string text;
+  std::variant<double Run::*, unsigned int Run::*> member;
+};
+
+const std::vector<RunEntry<QuasiStaticParameters>> &quasi_static_entries()
+{
+  using Run = QuasiStaticParameters;
+  static const std::vector<RunEntry<Run>> entries{
+      {"End time", positive_number(), "1", "s", "Time t of the last load step; it only enters the formulas.",
+       &Run::end_time},
+      {"Load steps", integer_from(1, 1000000), "1", "", "Equal steps from time 0 to the end time.",
+       &Run::load_steps},
+      {"Tolerance", number_above_up_to(0., 1e-2), "1e-9", "",
+       "Largest residual force of any body, relative to the root of the sum of squares of that body's own "
+       "forces; above 1e-2 Newton's method would stop before it has found which points touch.",
+       &Run::tolerance},
+      {"Maximum iterations", integer_from(1, 10000), "50", "", "Newton iterations in one load step.",
+       &Run::max_iterations},
+      {"Maximum bisections", integer_from(0, 30), "8", "", "How often a load step that fails is halved.",
+       &Run::max_bisections}};
+  return entries;
+}
+
+const std::vector<RunEntry<ExplicitParameters>> &explicit_entries()
+{
+  using Run = ExplicitParameters;
+  static const std::vector<RunEntry<Run>> entries{
+      {"End time", positive_number(), "1", "s", "Length of the run.", &Run::end_time},
+      {"Bulk step factor", number_above_up_to(0., 1.), "0.9", "",
+       "Time step as a share of the stability bound of the bodies alone.", &Run::bulk_step_factor},
+      {"Contact step factor", number_between(0., 1.), "0.5", "",
+       "Time step as a share of the bound with contact springs; unilateral contact needs less than 1.",
+       &Run::contact_step_factor},
+      {"Ledger tolerance", number_above(0.), "0.05", "",
+       "The run stops when the energy ledger is open by more than this share of the largest energy.",
+       &Run::ledger_tolerance}};
+  return entries;
+}
+
+template <typename Run>
+void declare_entries(const std::vector<RunEntry<Run>> &entries, SubsectionDeclaration &section)
+{
+  for (const RunEntry<Run> &entry : entries)
+    section.add(entry.key, entry.range, entry.default_value, entry.unit, entry.text);
+}
+
+template <typename Run>
+void read_entries(const std::vector<RunEntry<Run>> &entries, const SectionReader &section, Run &run)
+{
+  for (const RunEntry<Run> &entry : entries)
+    if (const auto number = std::get_if<double Run::*>(&entry.member))
+      run.**number = section.number(entry.key);
+    else
+      run.*std::get<unsigned int Run::*>(entry.member) = section.integer(entry.key);
+}
+
 void declare_quasi_static(Declarations &declarations)
 {
   SubsectionDeclaration run(declarations, "Quasi-static",
                             "Equilibrium without inertia, in load steps; excludes 'Explicit'.");
-  run.add("End time", number_above(0.), "1", "s",
-          "Time t of the last load step; it only enters the formulas.");
-  run.add("Load steps", integer_from(1, 1000000), "1", "", "Equal steps from time 0 to the end time.");
-  run.add("Tolerance", number_between(0., 1.), "1e-9", "",
-          "Largest residual force of any body, relative to the root of the sum of squares of that body's own "
-          "forces.");
-  run.add("Maximum iterations", integer_from(1, 10000), "50", "", "Newton iterations in one load step.");
-  run.add("Maximum bisections", integer_from(0, 30), "8", "", "How often a load step that fails is halved.");
+  declare_entries(quasi_static_entries(), run);
   run.add("Linear solver", one_of(names_in(linear_solvers())), "automatic", "",
           "By size; factorisation; or conjugate gradients with algebraic multigrid.");
 }
@@ -38,23 +95,13 @@ void declare_explicit(Declarations &declarations)
 {
   SubsectionDeclaration run(declarations, "Explicit",
                             "Motion by explicit time steps; excludes 'Quasi-static'.");
-  run.add("End time", number_above(0.), "1", "s", "Length of the run.");
-  run.add("Bulk step factor", number_above_up_to(0., 1.), "0.9", "",
-          "Time step as a share of the stability bound of the bodies alone.");
-  run.add("Contact step factor", number_between(0., 1.), "0.5", "",
-          "Time step as a share of the bound with contact springs; unilateral contact needs less than 1.");
-  run.add("Ledger tolerance", number_above(0.), "0.05", "",
-          "The run stops when the energy ledger is open by more than this share of the largest energy.");
+  declare_entries(explicit_entries(), run);
 }
 
 QuasiStaticParameters read_quasi_static(const SectionReader &section)
 {
   QuasiStaticParameters run;
-  run.end_time = section.number("End time");
-  run.load_steps = section.integer("Load steps");
-  run.tolerance = section.number("Tolerance");
-  run.max_iterations = section.integer("Maximum iterations");
-  run.max_bisections = section.integer("Maximum bisections");
+  read_entries(quasi_static_entries(), section, run);
   run.linear_solver = section.choice("Linear solver", linear_solvers());
   return run;
 }
@@ -62,10 +109,7 @@ QuasiStaticParameters read_quasi_static(const SectionReader &section)
 ExplicitParameters read_explicit(const SectionReader &section)
 {
   ExplicitParameters run;
-  run.end_time = section.number("End time");
-  run.bulk_step_factor = section.number("Bulk step factor");
-  run.contact_step_factor = section.number("Contact step factor");
-  run.ledger_tolerance = section.number("Ledger tolerance");
+  read_entries(explicit_entries(), section, run);
   return run;
 }
 } // namespace

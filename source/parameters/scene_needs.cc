@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "signorini/parameters/scene_needs.h"
 
+#include "signorini/parameters/expression.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -101,6 +103,39 @@ bool have_same_size(const MeshParameters &first, const MeshParameters &other, co
       return false;
   }
   return true;
+}
+
+/// Sum of the curvatures 1/R of all balls and spheres [1/m].
+double total_curvature(const Parameters &parameters)
+{
+  double curvature = 0.;
+  for (const BodyParameters &body : parameters.bodies)
+    if (body.mesh.shape == MeshParameters::Shape::ball)
+      curvature += 1. / (body.mesh.radius * body.placement.scale);
+  for (const ObstacleParameters &obstacle : parameters.obstacles)
+    if (obstacle.shape == ObstacleParameters::Shape::sphere)
+      curvature += 1. / obstacle.radius;
+  return curvature;
+}
+
+bool differ(const double value, const double exact)
+{
+  return std::abs(value - exact) > 1e-6 * exact;
+}
+
+/// Magnitude of a traction that is the same all over its boundary; nothing for others.
+std::optional<double> uniform_traction(const LoadParameters &load, const unsigned int dimension,
+                                       const double time)
+{
+  double square = 0.;
+  for (unsigned int c = 0; c < dimension; ++c)
+  {
+    const Expression traction(load.traction[c]);
+    if (traction.uses("x") || traction.uses("y") || traction.uses("z"))
+      return {};
+    square += std::pow(traction.value({}, time), 2);
+  }
+  return std::sqrt(square);
 }
 
 MaybeFault find_unequal_box(const ParameterText &text, const Parameters &parameters)
@@ -273,6 +308,41 @@ SceneNeed a_load()
                             [](const BodyParameters &body) { return !body.loads.empty(); }))
               return {};
             return SceneFault{place_of_case(text), "no body has a subsection 'Load NAME'"};
+          }};
+}
+
+SceneNeed matching_radius()
+{
+  return {"a ball or a sphere, and its radius (of two: 1/(1/R1 + 1/R2)) as 'Radius'",
+          [](const ParameterText &text, const Parameters &parameters) -> MaybeFault
+          {
+            const double curvature = total_curvature(parameters);
+            if (curvature == 0.)
+              return SceneFault{place_of_case(text), "no body is a ball and no obstacle a sphere"};
+            const double radius = parameters.exact_solution->values.at("Radius");
+            if (!differ(radius, 1. / curvature))
+              return {};
+            return SceneFault{
+                text.where("Exact solution", "Radius"),
+                fmt::format("Radius = {}, but the bodies and obstacles have {}", radius, 1. / curvature)};
+          }};
+}
+
+SceneNeed matching_pressure()
+{
+  return {"'Pressure' equal to the traction of every uniform load",
+          [](const ParameterText &text, const Parameters &parameters) -> MaybeFault
+          {
+            const double pressure = parameters.exact_solution->values.at("Pressure");
+            const double end = std::visit([](const auto &run) { return run.end_time; }, parameters.solver);
+            for (const BodyParameters &body : parameters.bodies)
+              for (const LoadParameters &load : body.loads)
+                if (const auto traction = uniform_traction(load, parameters.dimension, end);
+                    traction && differ(*traction, pressure))
+                  return SceneFault{text.where("Exact solution", "Pressure"),
+                                    fmt::format("Pressure = {}, but the load at {} has {} at t = {}",
+                                                pressure, load.place, *traction, end)};
+            return {};
           }};
 }
 } // namespace signorini

@@ -62,12 +62,17 @@ Triple SectionReader::vector(const std::string &key) const
   return result;
 }
 
+std::string SectionReader::place(const std::string &key) const
+{
+  return text.where(section, key);
+}
+
 Complaint SectionReader::complain(const std::string &key, const std::string &what) const
 {
   const ParameterEntry *const entry = text.find(section, key);
   const std::string shown = value(key);
   return Complaint(what)
-      .at(entry != nullptr ? entry->where() : text.where(section))
+      .at(place(key))
       .found(fmt::format("{} = {}{}", join_path(section, key), shown.empty() ? "nothing" : shown,
                          entry != nullptr ? "" : " (default)"));
 }

@@ -55,10 +55,10 @@ std::string describe_bounds(const ValueRange &range)
   if (range.kind == ValueRange::Kind::integer)
     return fmt::format(" from {} to {}", range.lower, range.upper);
   if (range.lower > unbounded.lower)
-    result += fmt::format(" {} {}", range.lower_excluded ? ">" : "≥", range.lower);
+    result += fmt::format(" {} {:g}", range.lower_excluded ? ">" : "≥", range.lower);
   if (range.upper < unbounded.upper)
-    result +=
-        fmt::format("{} {} {}", result.empty() ? "" : " and", range.upper_excluded ? "<" : "≤", range.upper);
+    result += fmt::format("{} {} {:g}", result.empty() ? "" : " and", range.upper_excluded ? "<" : "≤",
+                          range.upper);
   return result;
 }
 
@@ -155,6 +155,20 @@ ValueRange number_above(const double lower)
 {
   ValueRange range = number_from(lower);
   range.lower_excluded = true;
+  return range;
+}
+
+ValueRange positive_number()
+{
+  ValueRange range = number_from(1e-30);
+  range.upper = 1e30;
+  return range;
+}
+
+ValueRange positive_length()
+{
+  ValueRange range = number_from(1e-12);
+  range.upper = 1e12;
   return range;
 }
 

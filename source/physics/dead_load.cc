@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "signorini/physics/dead_load.h"
 
+#include "signorini/base/collective_error.h"
 #include "signorini/discretization/scene_mesh.h"
 
 #include <deal.II/base/quadrature_lib.h>
@@ -65,18 +66,24 @@ void DeadLoad<dim>::collect_points()
 }
 
 template <int dim>
-void DeadLoad<dim>::update(const State &state)
+void DeadLoad<dim>::add_own_tractions(double time)
 {
-  forces.reinit(weight);
   for (const LoadedPoint &point : points)
   {
     SpatialVector<dim> traction;
     for (unsigned int d = 0; d < dim; ++d)
       traction[d] = evaluate(scene->loads[point.load].traction[d], scene->loads[point.load].description,
-                             point.position, state.time);
+                             point.position, time);
     for (unsigned int i = 0; i < point.weights.size(); ++i)
       forces.local_element(point.weights[i].first) += point.weights[i].second * traction[point.components[i]];
   }
+}
+
+template <int dim>
+void DeadLoad<dim>::update(const State &state)
+{
+  forces.reinit(weight);
+  throw_together(discretization->communicator(), [&]() { add_own_tractions(state.time); });
   discretization->collect(forces);
   forces += weight;
   work = forces * state.displacement;

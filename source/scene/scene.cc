@@ -33,11 +33,15 @@ void add_supports_and_loads(const BodyParameters &body, unsigned int index, Scen
       if (support.displacement[component])
         scene.supports.push_back({index, support.boundary, find_id(support.boundary), component,
                                   Expression(*support.displacement[component]),
-                                  "Body " + body.name + "/Support " + support.boundary});
+                                  fmt::format("{}: Body {}/Support {}/{}", support.places[component],
+                                              body.name, support.boundary, "xyz"[component])});
   for (const LoadParameters &load : body.loads)
   {
-    Load<dim> traction{
-        index, load.boundary, find_id(load.boundary), {}, "Body " + body.name + "/Load " + load.boundary};
+    Load<dim> traction{index,
+                       load.boundary,
+                       find_id(load.boundary),
+                       {},
+                       fmt::format("{}: Body {}/Load {}/Traction", load.place, body.name, load.boundary)};
     for (unsigned int component = 0; component < dim; ++component)
       traction.traction.emplace_back(load.traction[component]);
     scene.loads.push_back(std::move(traction));
@@ -64,8 +68,12 @@ double evaluate(const Expression &expression, const std::string &description, co
     point[d] = x[d];
   const double value = expression.value(point, t);
   if (!std::isfinite(value))
-    throw InputError(fmt::format("{}: the expression '{}' is not finite at ({}, {}, {}), t = {}", description,
-                                 expression.formula(), point[0], point[1], point[2], t));
+    throw InputError(Complaint(fmt::format("{} is {} at x = {}, y = {}, z = {}, t = {}", description,
+                                           std::isnan(value) ? "not a number" : "infinite", point[0],
+                                           point[1], point[2], t))
+                         .found(expression.formula())
+                         .expected("finite values wherever it is used")
+                         .advise("correct the formula, or restrict it with if(condition, value, other)"));
   return value;
 }
 

@@ -2,10 +2,14 @@
 #include "signorini/simulation/held_bodies.h"
 
 #include "signorini/base/exceptions.h"
+#include "signorini/parameters/contact_parameters.h"
 
 #include <Eigen/Dense>
 
+#include <fmt/core.h>
+
 #include <algorithm>
+#include <numeric>
 
 namespace signorini
 {
@@ -35,24 +39,69 @@ Eigen::VectorXd rigid_motions(const dealii::Tensor<1, dim> &arm, unsigned int co
   return motions;
 }
 
-bool is_pair_excluded(const ContactParameters &contact, const std::string &one, const std::string &other)
+bool may_touch(const Parameters &parameters, const std::string &one, const std::string &other)
 {
-  return std::any_of(contact.excluded_pairs.begin(), contact.excluded_pairs.end(),
-                     [&](const auto &pair)
-                     { return pair == std::pair(one, other) || pair == std::pair(other, one); });
+  return parameters.contact && !is_pair_excluded(*parameters.contact, one, other);
 }
 
-bool may_touch_something(const Parameters &parameters, const std::string &body)
+bool may_touch_obstacle(const Parameters &parameters, const std::string &body)
 {
-  if (!parameters.contact)
-    return false;
-  for (const BodyParameters &other : parameters.bodies)
-    if (other.name != body && !is_pair_excluded(*parameters.contact, body, other.name))
-      return true;
-  for (const ObstacleParameters &obstacle : parameters.obstacles)
-    if (!is_pair_excluded(*parameters.contact, body, obstacle.name))
-      return true;
-  return false;
+  return std::any_of(parameters.obstacles.begin(), parameters.obstacles.end(),
+                     [&](const auto &obstacle) { return may_touch(parameters, body, obstacle.name); });
+}
+
+bool may_touch_something(const Parameters &parameters, const unsigned int body)
+{
+  const std::string &name = parameters.bodies[body].name;
+  return may_touch_obstacle(parameters, name) ||
+         std::any_of(parameters.bodies.begin(), parameters.bodies.end(),
+                     [&](const BodyParameters &other)
+                     { return other.name != name && may_touch(parameters, name, other.name); });
+}
+
+/// The bodies that may touch the last one of `unseen`, or one that may touch such a one, and so on; they are
+/// taken out of `unseen`.
+std::vector<unsigned int> take_group(const Parameters &parameters, std::vector<unsigned int> &unseen)
+{
+  std::vector<unsigned int> group{unseen.back()};
+  unseen.pop_back();
+  for (std::size_t next = 0; next < group.size(); ++next)
+  {
+    const std::string &body = parameters.bodies[group[next]].name;
+    const auto apart =
+        std::stable_partition(unseen.begin(), unseen.end(),
+                              [&](const unsigned int other)
+                              { return !may_touch(parameters, body, parameters.bodies[other].name); });
+    group.insert(group.end(), apart, unseen.end());
+    unseen.erase(apart, unseen.end());
+  }
+  return group;
+}
+
+/// Throws for a group of bodies that only touch each other, none of which has a support.
+template <int dim>
+void check_groups(const Parameters &parameters, const Scene<dim> &scene)
+{
+  std::vector<bool> is_anchored(scene.n_bodies());
+  for (unsigned int body = 0; body < scene.n_bodies(); ++body)
+    is_anchored[body] = may_touch_obstacle(parameters, scene.body_names[body]);
+  for (const Support<dim> &support : scene.supports)
+    is_anchored[support.body] = true;
+  std::vector<unsigned int> unseen(scene.n_bodies());
+  std::iota(unseen.rbegin(), unseen.rend(), 0u);
+  while (!unseen.empty())
+  {
+    const std::vector<unsigned int> group = take_group(parameters, unseen);
+    if (group.size() == 1 ||
+        std::any_of(group.begin(), group.end(), [&](const unsigned int body) { return is_anchored[body]; }))
+      continue;
+    throw InputError(Complaint(fmt::format("body '{}' and all that it can touch are free to move together: "
+                                           "none of them has a support or can touch an obstacle",
+                                           scene.body_names[group.front()]))
+                         .at("subsection Body " + scene.body_names[group.front()])
+                         .found(fmt::format("a group of {} bodies", group.size()))
+                         .advise("add a subsection Support to one of them, or an obstacle to lean on"));
+  }
 }
 } // namespace
 
@@ -94,13 +143,14 @@ template <int dim>
 void check_held(const Parameters &parameters, const Scene<dim> &scene, const std::vector<bool> &is_held)
 {
   for (unsigned int body = 0; body < scene.n_bodies(); ++body)
-    if (!is_held[body] && !may_touch_something(parameters, scene.body_names[body]))
+    if (!is_held[body] && !may_touch_something(parameters, body))
       throw InputError(
           Complaint("body '" + scene.body_names[body] +
                     "' is free to move: its supports leave a rigid motion and it can touch nothing that "
                     "would hold it")
               .at("subsection Body " + scene.body_names[body])
               .advise("add a subsection Support, or a subsection Contact with something to lean on"));
+  check_groups(parameters, scene);
 }
 
 template std::vector<bool> find_held_bodies<2>(const Scene<2> &, const SupportedDofs<2> &);

@@ -6,6 +6,7 @@
 #include "signorini/parameters/print_parameters.h"
 #include "signorini/parameters/read_parameters.h"
 #include "signorini/simulation/simulation.h"
+#include "signorini/simulation/size_estimate.h"
 
 #include <filesystem>
 #include <fstream>
@@ -48,6 +49,7 @@ void run(const CommandLine &command_line, const MPI_Comm &communicator)
 {
   const ParameterText text = read_parameter_text(command_line);
   const Parameters parameters = read_parameters(text);
+  check_size(text, parameters, communicator);
   if (parameters.dimension == 2)
     run<2>(command_line, text, parameters, communicator);
   else

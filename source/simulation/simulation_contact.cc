@@ -3,6 +3,7 @@
 #include "signorini/simulation/simulation.h"
 
 #include "signorini/base/exceptions.h"
+#include "signorini/simulation/initial_overlap.h"
 
 #include <fmt/core.h>
 #include <fmt/ranges.h>
@@ -47,6 +48,13 @@ contact::PotentialSettings make_settings(const Parameters &parameters)
       settings.excluded_obstacle_pairs.emplace_back(second, find(parameters.obstacles, one));
   }
   return settings;
+}
+
+template <int dim>
+std::string format_point(const SpatialVector<dim> &x)
+{
+  const SpatialVector<dim> without_minus_zeros = x.array() + 0.;
+  return fmt::format("({:.6g})", fmt::join(without_minus_zeros, ", "));
 }
 } // namespace
 
@@ -118,22 +126,32 @@ void Simulation<dim>::check_initial_overlap()
     energy += contact->energy();
   }
   update_contact_measures();
-  if (!results.has_contact || results.max_penetration_over_thickness <= allowed)
+  if (!results.has_contact)
     return;
-  const auto &deepest = results.contact;
-  const std::string where = fmt::format(
-      "({:.6g})", fmt::join(deepest.deepest_position.data(), deepest.deepest_position.data() + dim, ", "));
+  const OverlapSearch<dim> search(parameters, scene, *discretization, *surface_map, state.displacement);
+  std::optional<InitialOverlap<dim>> overlap = search.find_gross(allowed);
+  if (!overlap && results.max_penetration_over_thickness > allowed)
+  {
+    const Facet<dim> &facet = surface_map->surface().facets[results.contact.deepest_facet];
+    overlap = search.find_at(facet.body, results.contact.deepest_position);
+    overlap->thickness = facet.layer_thickness;
+  }
+  if (!overlap)
+    return;
+  const std::string depth =
+      fmt::format("{:.6g} m ({:.3g} elements)", overlap->depth, overlap->depth / overlap->thickness);
+  const std::string where = format_point<dim>(overlap->point);
   if (!parameters.contact->allow_initial_overlap)
-    throw InputError(
-        Complaint(
-            fmt::format("body '{}' overlaps something by {:.3g} of its element size before the run begins",
-                        scene.body_names[surface_map->surface().facets[deepest.deepest_facet].body],
-                        deepest.max_penetration_over_thickness))
-            .at(where)
-            .expected(fmt::format("at most {} of an element", allowed))
-            .advise("move the bodies apart, or set Contact/Allow initial overlap = true"));
-  progress.say(fmt::format("Initial overlap: {:.3g} of an element at {}, storing {:.6g} J",
-                           deepest.max_penetration_over_thickness, where, energy));
+    throw InputError(Complaint(fmt::format("{} overlaps {} before the run begins", search.name(overlap->body),
+                                           search.name(overlap->other)))
+                         .at(where)
+                         .found(depth + " below its surface")
+                         .expected(fmt::format("at most {} elements", allowed))
+                         .advise(fmt::format(
+                             "shift {} by {}, exclude the pair, or set Contact/Allow initial overlap = true",
+                             search.name(overlap->body), format_point<dim>(search.find_shift(*overlap)))));
+  progress.say(fmt::format("Initial overlap: {} in {} by {} at {}; contact stores {:.6g} J",
+                           search.name(overlap->body), search.name(overlap->other), depth, where, energy));
 }
 
 template <int dim>
@@ -147,8 +165,7 @@ void Simulation<dim>::check_penetration()
       Complaint(fmt::format("body '{}' sinks into another by {:.3g} of its element size at t = {:.6g}",
                             scene.body_names[surface_map->surface().facets[deepest.deepest_facet].body],
                             deepest.max_penetration_over_thickness, state.time))
-          .at(fmt::format("({:.6g})", fmt::join(deepest.deepest_position.data(),
-                                                deepest.deepest_position.data() + dim, ", ")))
+          .at(format_point<dim>(deepest.deepest_position))
           .expected(fmt::format("at most {} of an element: deeper, it could pass through", limit))
           .advise("raise Contact/Penalty factor, refine, or load more slowly"));
 }

@@ -28,8 +28,13 @@ void Simulation<dim>::run_explicit(const ExplicitParameters &solver_parameters)
   while (state.time < end)
   {
     const double remaining = end - state.time, stable = solver.stable_step();
+    if (!(state.time + stable > state.time))
+      throw NumericalError(Complaint(fmt::format("the stable time step vanishes at t = {:.6g}", state.time))
+                               .found(fmt::format("{} s", stable))
+                               .advise("look at the last fields for a crushed cell; refine, or lower "
+                                       "Contact/Penalty factor"));
     const double time_step =
-        remaining > 2. * stable ? stable : remaining / std::ceil(remaining / stable - 1e-9);
+        remaining > 2. * stable ? stable : remaining / std::max(1., std::ceil(remaining / stable - 1e-9));
     solver.step(time_step, state);
     if (end - state.time < 1e-9 * time_step)
       state.time = end;

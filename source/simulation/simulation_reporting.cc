@@ -13,6 +13,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace signorini
 {
@@ -37,8 +38,8 @@ std::string reason_of_failure()
 template <int dim>
 void Simulation<dim>::print_plan()
 {
-  progress.say(fmt::format("{} bodies, {} obstacles, {} cells of degree {}, {} dofs, {} ranks",
-                           scene.n_bodies(), scene.obstacles.size(), results.n_cells, parameters.degree,
+  progress.say(fmt::format("Bodies: {}, obstacles: {}, cells of degree {}: {}, dofs: {}, ranks: {}",
+                           scene.n_bodies(), scene.obstacles.size(), parameters.degree, results.n_cells,
                            results.n_dofs, dealii::Utilities::MPI::n_mpi_processes(communicator)));
   progress.say(fmt::format("Built: {}", fmt::join(results.parts_built, ", ")));
   for (const LeftOutPart &part : results.parts_left_out)
@@ -59,8 +60,13 @@ void Simulation<dim>::print_plan()
     State trial = state;
     solver.start(trial);
     const double step = solver.stable_step();
-    progress.say(fmt::format("Explicit: first time step {:.4g} s, about {:.0f} steps to {} s", step,
-                             explicit_parameters.end_time / step, explicit_parameters.end_time));
+    const double n_steps = std::ceil(explicit_parameters.end_time / step);
+    progress.say(fmt::format("Explicit: first time step {:.4g} s, about {:.0f} steps to {} s", step, n_steps,
+                             explicit_parameters.end_time));
+    if (n_steps > 1e7)
+      progress.say(fmt::format("Warning: {:.1e} steps will hardly come to an end; shorten Explicit/End time, "
+                               "coarsen the smallest cells, or run Quasi-static",
+                               n_steps));
   }
   progress.say(fmt::format("Memory after set-up: {:.0f} MB on all ranks", memory_mb()));
 }

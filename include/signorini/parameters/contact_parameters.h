@@ -24,4 +24,7 @@ void declare_contact(Declarations &declarations, const DeclarationScope &scope);
 ContactParameters read_contact(const ParameterText &text, const Declarations &in_use,
                                const std::vector<std::string> &bodies,
                                const std::vector<std::string> &obstacles);
+
+/// Whether these two, named in either order, never touch.
+bool is_pair_excluded(const ContactParameters &contact, const std::string &one, const std::string &other);
 } // namespace signorini

@@ -85,7 +85,7 @@ struct SupportParameters
 {
   std::string boundary;
   std::array<std::optional<std::string>, 3> displacement; ///< muParser expressions of x, y, z, t [m]
-  int line = 0;                                           ///< where it stands in the file
+  std::array<std::string, 3> places;                      ///< file and line of each component
 };
 
 /// `subsection Load NAME` of a body: a dead traction per undeformed area on the boundary NAME.
@@ -93,7 +93,7 @@ struct LoadParameters
 {
   std::string boundary;
   std::array<std::string, 3> traction{{"0", "0", "0"}}; ///< muParser expressions of x, y, z, t [Pa]
-  int line = 0;
+  std::string place;                                    ///< file and line
 };
 
 /// `subsection Body NAME`.

@@ -42,4 +42,8 @@ SceneNeed no_grading();
 /// All bodies are boxes of one material and one size.
 SceneNeed equal_boxes();
 SceneNeed a_load();
+/// A ball or a sphere takes part, and the radius of the exact solution is the effective one.
+SceneNeed matching_radius();
+/// The pressure of the exact solution is that of every load that is uniform, at the end time.
+SceneNeed matching_pressure();
 } // namespace signorini

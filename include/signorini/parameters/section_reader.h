@@ -52,6 +52,8 @@ public:
     throw InputError(complain(key, "unknown choice"));
   }
 
+  /// Where the entry stands; for an absent one its subsection.
+  std::string place(const std::string &key) const;
   /// A complaint about an entry, with its place and value.
   Complaint complain(const std::string &key, const std::string &what) const;
   /// A complaint about the subsection, with its place.

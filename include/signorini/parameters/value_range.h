@@ -39,6 +39,10 @@ ValueRange true_or_false();
 ValueRange one_of(const std::vector<std::string> &choices);
 ValueRange any_number();
 ValueRange number_above(double lower);
+/// A positive number whose products with its like stay within the range of floating point.
+ValueRange positive_number();
+/// A positive length: cubes of it must not vanish against anything.
+ValueRange positive_length();
 ValueRange number_from(double lower);
 /// Both ends excluded.
 ValueRange number_between(double lower, double upper);

@@ -30,6 +30,7 @@ private:
   };
 
   void collect_points();
+  void add_own_tractions(double time);
 
   const Scene<dim> *scene;
   const Discretization<dim> *discretization;

@@ -21,7 +21,7 @@ struct Support
   unsigned int boundary_id = 0; ///< index of its name among those of the body's boundaries
   unsigned int component = 0;
   Expression displacement; ///< [m]
-  std::string description; ///< for messages
+  std::string description; ///< file, line and name, for messages
 };
 
 /// A dead traction on one boundary of one body.
@@ -32,7 +32,7 @@ struct Load
   std::string boundary;
   unsigned int boundary_id = 0;     ///< index of its name among those of the body's boundaries
   std::vector<Expression> traction; ///< dim components [Pa]
-  std::string description;          ///< for messages
+  std::string description;          ///< file, line and name, for messages
 };
 
 /// What acts on what: fixed once built, free of meshes.

@@ -12,7 +12,8 @@ namespace signorini
 template <int dim>
 std::vector<bool> find_held_bodies(const Scene<dim> &scene, const SupportedDofs<dim> &supports);
 
-/// Throws InputError for a body that neither supports nor possible contact hold.
+/// Throws InputError for a body that neither supports nor possible contact hold, and for bodies that can
+/// touch each other only and have no support.
 template <int dim>
 void check_held(const Parameters &parameters, const Scene<dim> &scene, const std::vector<bool> &is_held);
 } // namespace signorini

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "signorini/contact/search/neighbour_list.h"
 
-#include <boost/geometry/geometries/box.hpp>
-#include <boost/geometry/geometries/point.hpp>
-#include <boost/geometry/index/rtree.hpp>
+#include "signorini/contact/search/box_tree.h"
+
 #include <boost/iterator/function_output_iterator.hpp>
 
 #include <algorithm>
@@ -15,45 +14,6 @@ namespace signorini::contact
 {
 namespace
 {
-namespace geometry = boost::geometry;
-
-template <int dim>
-using TreePoint = geometry::model::point<double, dim, geometry::cs::cartesian>;
-template <int dim>
-using TreeBox = geometry::model::box<TreePoint<dim>>;
-template <int dim>
-using TreeEntry = std::pair<TreeBox<dim>, unsigned int>;
-template <int dim>
-using BoxTree = geometry::index::rtree<TreeEntry<dim>, geometry::index::linear<16>>;
-
-template <int dim>
-TreePoint<dim> make_tree_point(const SpatialVector<dim> &x)
-{
-  if constexpr (dim == 2)
-    return {x[0], x[1]};
-  else
-    return {x[0], x[1], x[2]};
-}
-
-template <int dim>
-TreeBox<dim> make_tree_box(const BoundingBox<dim> &box, double margin)
-{
-  const SpatialVector<dim> margins = SpatialVector<dim>::Constant(margin);
-  return {make_tree_point<dim>(box.min() - margins), make_tree_point<dim>(box.max() + margins)};
-}
-
-/// A tree over the boxes with the given indices. Handing over all entries at once packs the tree.
-template <int dim>
-BoxTree<dim> make_tree(const std::vector<BoundingBox<dim>> &boxes, const std::vector<unsigned int> &indices)
-{
-  std::vector<TreeEntry<dim>> entries;
-  entries.reserve(indices.size());
-  for (const unsigned int i : indices)
-    if (!boxes[i].isEmpty())
-      entries.emplace_back(make_tree_box<dim>(boxes[i], 0.), i);
-  return BoxTree<dim>(entries);
-}
-
 /// Appends, in rising order, the indices of the boxes of `tree` no farther than `distance` from `box`.
 template <int dim>
 void append_near_boxes(const BoxTree<dim> &tree, const std::vector<BoundingBox<dim>> &boxes,
@@ -66,7 +26,7 @@ void append_near_boxes(const BoxTree<dim> &tree, const std::vector<BoundingBox<d
         if (boxes[entry.second].squaredExteriorDistance(box) <= distance * distance)
           near.push_back(entry.second);
       });
-  tree.query(geometry::index::intersects(make_tree_box<dim>(box, distance)), append);
+  tree.query(boost::geometry::index::intersects(make_tree_box<dim>(box, distance)), append);
   std::sort(near.begin() + first_new, near.end());
 }
 } // namespace

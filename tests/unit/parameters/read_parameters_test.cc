@@ -129,7 +129,8 @@ TEST(PrintParameters, NamesEveryUnit)
 {
   std::ostringstream stream;
   print_parameters(ParametersFormat::markdown, stream);
-  EXPECT_NE(stream.str().find("| Young's modulus | Pa | required | a number > 0 |"), std::string::npos);
+  EXPECT_NE(stream.str().find("| Young's modulus | Pa | required | a number ≥ 1e-30 and ≤ 1e+30 |"),
+            std::string::npos);
   EXPECT_NE(stream.str().find("## Body NAME/Mesh/Grading"), std::string::npos);
 }
 

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include "signorini/contact/search/interior_search.h"
+#include "signorini/discretization/surface_map.h"
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace signorini
+{
+/// A point of a body in something else.
+template <int dim>
+struct InitialOverlap
+{
+  unsigned int body = 0;
+  unsigned int other = 0; ///< index of a body; of an obstacle, counted on after the bodies
+  double depth = 0.;      ///< of the point, below the surface of the other [m]
+  double thickness = 0.;  ///< of the element below that surface; obstacles: of that below the body's [m]
+  SpatialVector<dim> point = SpatialVector<dim>::Zero();
+};
+
+/// Looks for bodies in bodies at any depth, where contact sees only as deep as one element. Collective.
+template <int dim>
+class OverlapSearch
+{
+public:
+  /// All must outlive this object.
+  OverlapSearch(const Parameters &parameters, const Scene<dim> &scene,
+                const Discretization<dim> &discretization, const SurfaceMap<dim> &surface_map,
+                const Vector &displacement);
+
+  /// A node, a centre of a cell or a point of the surface that lies deeper in another body than `allowed`
+  /// elements, or the centre of a sphere in a body; on every rank the same.
+  std::optional<InitialOverlap<dim>> find_gross(double allowed) const;
+
+  /// What a point of a body lies deepest in; it must lie in something.
+  InitialOverlap<dim> find_at(unsigned int body, const SpatialVector<dim> &point) const;
+
+  /// body 'NAME' or obstacle 'NAME'.
+  std::string name(unsigned int body_or_obstacle) const;
+
+  /// Shortest of some shifts of the overlap's body after which a plane lies between the two.
+  SpatialVector<dim> find_shift(const InitialOverlap<dim> &overlap) const;
+
+private:
+  /// All points of this rank that are looked at, with their bodies.
+  void for_each_point(const std::function<void(unsigned int, const SpatialVector<dim> &)> &visit) const;
+  std::optional<InitialOverlap<dim>> find_on_this_rank(double allowed) const;
+  std::optional<InitialOverlap<dim>> find_in_bodies(unsigned int body, const SpatialVector<dim> &point) const;
+  std::optional<InitialOverlap<dim>> find_swallowed_sphere() const;
+  double reach(unsigned int body_or_obstacle, const SpatialVector<dim> &direction) const;
+  bool is_excluded(unsigned int body, unsigned int body_or_obstacle) const;
+
+  const Parameters &parameters;
+  const Scene<dim> &scene;
+  const Discretization<dim> &discretization;
+  const ContactSurface<dim> &surface;
+  const Vector &displacement;
+  std::vector<SpatialVector<dim>> positions;
+  contact::InteriorSearch<dim> interiors;
+};
+} // namespace signorini

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "signorini/contact/search/interior_search.h"
+
+#include "signorini/contact/geometry/depth.h"
+#include "signorini/contact/search/box_tree.h"
+
+#include <limits>
+
+namespace signorini::contact
+{
+template <int dim>
+struct InteriorSearch<dim>::Trees
+{
+  std::vector<BoundingBox<dim>> facets;
+  BoxTree<dim> body_tree;
+  std::vector<BoxTree<dim>> facet_trees; ///< one a body
+
+  Trees(const ContactSurface<dim> &surface, const Positions &positions)
+  {
+    std::vector<BoundingBox<dim>> bodies(surface.n_bodies);
+    std::vector<std::vector<unsigned int>> facets_of_body(surface.n_bodies);
+    for (unsigned int f = 0; f < surface.facets.size(); ++f)
+    {
+      facets.push_back(make_facet_box(surface.facets[f], positions));
+      bodies[surface.facets[f].body].extend(facets.back());
+      facets_of_body[surface.facets[f].body].push_back(f);
+    }
+    std::vector<unsigned int> all_bodies;
+    for (unsigned int body = 0; body < surface.n_bodies; ++body)
+    {
+      all_bodies.push_back(body);
+      facet_trees.push_back(make_tree<dim>(facets, facets_of_body[body]));
+    }
+    body_tree = make_tree<dim>(bodies, all_bodies);
+  }
+};
+
+template <int dim>
+InteriorSearch<dim>::InteriorSearch(const ContactSurface<dim> &contact_surface,
+                                    const Positions &node_positions)
+    : surface(contact_surface), positions(node_positions),
+      trees(std::make_unique<const Trees>(contact_surface, node_positions))
+{
+}
+
+template <int dim>
+InteriorSearch<dim>::~InteriorSearch() = default;
+
+template <int dim>
+std::optional<InteriorPoint<dim>>
+InteriorSearch<dim>::find_deepest(const SpatialVector<dim> &x,
+                                  const std::function<bool(unsigned int)> &is_considered) const
+{
+  std::optional<InteriorPoint<dim>> deepest;
+  std::vector<TreeEntry<dim>> holding;
+  trees->body_tree.query(boost::geometry::index::intersects(make_tree_point<dim>(x)),
+                         std::back_inserter(holding));
+  for (const TreeEntry<dim> &entry : holding)
+    if (is_considered(entry.second))
+      if (const auto found = find_in_body(x, entry.second);
+          found && (!deepest || found->depth > deepest->depth))
+        deepest = found;
+  return deepest;
+}
+
+template <int dim>
+std::optional<InteriorPoint<dim>> InteriorSearch<dim>::find_in_body(const SpatialVector<dim> &x,
+                                                                    unsigned int body) const
+{
+  // Boxes come in rising order of their distance: beyond the nearest facet found so far they cannot matter.
+  // The margin keeps all facets that share the foot, which the sign of the depth needs.
+  const BoxTree<dim> &tree = trees->facet_trees[body];
+  std::vector<unsigned int> candidates;
+  double nearest = std::numeric_limits<double>::infinity();
+  const auto query =
+      boost::geometry::index::nearest(make_tree_point<dim>(x), static_cast<unsigned int>(tree.size()));
+  for (auto entry = tree.qbegin(query); entry != tree.qend(); ++entry)
+  {
+    const unsigned int facet = entry->second;
+    const BoundingBox<dim> &box = trees->facets[facet];
+    if (box.exteriorDistance(x) > nearest + 1e-6 * box.diagonal().norm())
+      break;
+    candidates.push_back(facet);
+    nearest =
+        std::min(nearest, find_closest_point(gather_nodes(surface.facets[facet], positions), x).distance);
+  }
+  const SurfaceFoot<dim> foot = find_foot(surface.facets, positions, candidates.data(), candidates.size(), x,
+                                          std::numeric_limits<double>::infinity());
+  if (!(foot.depth > 0.))
+    return {};
+  return InteriorPoint<dim>{body, foot.facet, foot.depth, foot.closest.position};
+}
+
+template struct InteriorPoint<2>;
+template struct InteriorPoint<3>;
+template class InteriorSearch<2>;
+template class InteriorSearch<3>;
+} // namespace signorini::contact
