@@ -20,7 +20,7 @@ std::vector<SpatialVector<dim>> current_positions(const SurfaceMap<dim> &surface
 {
   std::vector<SpatialVector<dim>> positions = surface_map.gather(displacement);
   for (unsigned int node = 0; node < positions.size(); ++node)
-    positions[node] += surface_map.surface().reference_positions[node];
+    positions[node] += surface_map.surface().origin + surface_map.surface().reference_positions[node];
   return positions;
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // What a Simulation takes down of a moment: forces by pair and support, motions by body, and their columns.
+#include "signorini/parameters/contact_parameters.h"
 #include "signorini/simulation/simulation.h"
 
 #include <fmt/core.h>
@@ -16,15 +17,6 @@ constexpr unsigned int max_n_bodies_by_name = 10;
 constexpr const char *force_unit(int dim)
 {
   return dim == 2 ? "N/m" : "N";
-}
-
-bool may_touch(const ContactParameters &contact, const std::string &one, const std::string &other)
-{
-  return std::none_of(contact.excluded_pairs.begin(), contact.excluded_pairs.end(),
-                      [&](const auto &pair) {
-                        return (pair.first == one && pair.second == other) ||
-                               (pair.first == other && pair.second == one);
-                      });
 }
 
 template <int dim>
@@ -111,7 +103,7 @@ void Simulation<dim>::record_contact_forces(const contact::PairForces<dim> &pair
   const bool is_by_body = scene.n_bodies() <= max_n_bodies_by_name;
   for (unsigned int one = 0; one < scene.n_bodies() && is_by_body; ++one)
     for (unsigned int other = one + 1; other < scene.n_bodies(); ++other)
-      if (may_touch(*parameters.contact, scene.body_names[one], scene.body_names[other]))
+      if (!is_pair_excluded(*parameters.contact, scene.body_names[one], scene.body_names[other]))
         results.resultants.push_back({scene.body_names[one], scene.body_names[other],
                                       force_of_pair<dim>(pair_forces.bodies, one, other)});
   for (unsigned int obstacle = 0; obstacle < scene.obstacles.size(); ++obstacle)
@@ -121,7 +113,7 @@ void Simulation<dim>::record_contact_forces(const contact::PairForces<dim> &pair
     for (unsigned int body = 0; body < scene.n_bodies(); ++body)
     {
       const std::array<double, 3> force = force_of_pair<dim>(pair_forces.obstacles, body, obstacle);
-      if (is_by_body && may_touch(*parameters.contact, scene.body_names[body], name))
+      if (is_by_body && !is_pair_excluded(*parameters.contact, scene.body_names[body], name))
         results.resultants.push_back({scene.body_names[body], name, force});
       for (unsigned int d = 0; d < 3; ++d)
         on_all.force[d] += force[d];

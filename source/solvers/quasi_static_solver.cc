@@ -15,8 +15,8 @@ namespace signorini
 {
 namespace
 {
-/// Up to here sparse factorisation beats iteration (measured, doc/theory.md).
-constexpr unsigned int max_n_dofs_direct_3d = 30000, max_n_dofs_direct_2d = 200000;
+/// Up to about here sparse factorisation beats iteration (measured in 3-D, doc/theory.md).
+constexpr unsigned int max_n_dofs_direct_3d = 60000, max_n_dofs_direct_2d = 200000;
 
 } // namespace
 
