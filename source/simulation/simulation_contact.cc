@@ -161,13 +161,16 @@ void Simulation<dim>::check_penetration()
   if (results.contact.max_penetration_over_thickness <= limit)
     return;
   const auto &deepest = results.contact;
+  const bool is_a_leap = deepest.max_penetration_over_thickness > 2.;
   throw NumericalError(
-      Complaint(fmt::format("body '{}' sinks into another by {:.3g} of its element size at t = {:.6g}",
-                            scene.body_names[surface_map->surface().facets[deepest.deepest_facet].body],
-                            deepest.max_penetration_over_thickness, state.time))
+      Complaint(
+          fmt::format("body '{}' sinks into what it touches by {:.3g} of its element size at t = {:.6g}",
+                      scene.body_names[surface_map->surface().facets[deepest.deepest_facet].body],
+                      deepest.max_penetration_over_thickness, state.time))
           .at(format_point<dim>(deepest.deepest_position))
           .expected(fmt::format("at most {} of an element: deeper, it could pass through", limit))
-          .advise("raise Contact/Penalty factor, refine, or load more slowly"));
+          .advise(is_a_leap ? "it moves farther than an element in one step: check speeds, loads and units"
+                            : "raise Contact/Penalty factor, refine, or load more slowly"));
 }
 
 template class Simulation<2>;

@@ -63,8 +63,7 @@ void Simulation<dim>::run_quasi_static(const QuasiStaticParameters &solver_param
     if (step < smallest_step)
       throw NumericalError(Complaint(fmt::format("no equilibrium beyond load parameter {:.6g}: {}",
                                                  state.time, solver.failure()))
-                               .advise("look at the last fields; use more load steps, or check that contact "
-                                       "holds the bodies in every direction in which they are loaded"));
+                               .advise(solver.advice()));
   }
 }
 
