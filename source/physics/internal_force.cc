@@ -3,6 +3,8 @@
 
 #include <deal.II/base/mpi.h>
 
+#include <algorithm>
+
 namespace signorini
 {
 template <int dim>
@@ -138,6 +140,23 @@ void InternalForce<dim>::add_magnitudes(Vector &magnitudes) const
             magnitudes.local_element(dofs[i]) += geometry.weights[q] * stress * slopes[i / dim];
         }
       });
+}
+
+template <int dim>
+bool InternalForce<dim>::is_nonlinear() const
+{
+  return std::any_of(kernels.begin(), kernels.end(),
+                     [](const Kernel &kernel)
+                     { return std::holds_alternative<CellKernel<dim, NeoHookean<dim>>>(kernel); });
+}
+
+template <int dim>
+std::vector<SpatialTensor<dim>> InternalForce<dim>::stretches() const
+{
+  std::vector<SpatialTensor<dim>> all;
+  for_each_cell([&](auto &kernel, unsigned int, const CellGeometry &geometry, const double *u)
+                { all.push_back(kernel.mean_stretch(geometry, u)); });
+  return all;
 }
 
 template <int dim>

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace signorini
 {
@@ -26,6 +27,35 @@ std::string describe_iteration(double time, const NewtonReport &report)
 } // namespace
 
 template <int dim>
+std::optional<Complaint> Simulation<dim>::solve_load_step(QuasiStaticSolver<dim> &solver, double time)
+{
+  constexpr double largest_disturbance = 0.1;
+  const State before = state;
+  const double share = state.time / std::get<QuasiStaticParameters>(parameters.solver).end_time;
+  const bool is_solved = solver.solve(time, state,
+                                      [&](const NewtonReport &report)
+                                      { progress.step(describe_iteration(time, report), share); });
+  results.n_iterations = solver.n_iterations();
+  if (!is_solved)
+    return Complaint(solver.failure()).advise(solver.advice());
+  update_contact_measures();
+  std::optional<Complaint> fault = find_deep_penetration();
+  if (!fault && solver.renewal_residual() > largest_disturbance)
+    fault = Complaint(
+                fmt::format("points of integration that follow the bodies around change the forces by {:.1g}",
+                            solver.renewal_residual()))
+                .advise("refine, or set Contact/Integration = face quadrature");
+  if (fault)
+    state = before;
+  else if (solver.renewal_residual() > 0.)
+    progress.say(fmt::format(
+        "load {:.5g}: points of integration follow the bodies around, which leaves an error of {:.1e} of the "
+        "forces",
+        time, solver.renewal_residual()));
+  return fault;
+}
+
+template <int dim>
 void Simulation<dim>::run_quasi_static(const QuasiStaticParameters &solver_parameters)
 {
   QuasiStaticSolver<dim> solver(*discretization, *supports, scene, is_body_held, forces, surface_map.get(),
@@ -39,31 +69,23 @@ void Simulation<dim>::run_quasi_static(const QuasiStaticParameters &solver_param
   while (state.time < end * (1. - 1e-12))
   {
     const double time = end - state.time < step * (1. + 1e-9) ? end : state.time + step;
-    const double share = state.time / end;
-    const bool is_solved = solver.solve(time, state,
-                                        [&](const NewtonReport &report)
-                                        { progress.step(describe_iteration(time, report), share); });
-    results.n_iterations = solver.n_iterations();
-    if (is_solved)
+    if (const std::optional<Complaint> fault = solve_load_step(solver, time))
     {
-      ++results.n_steps;
-      if (solver.renewal_residual() > 0.)
-        progress.say(fmt::format(
-            "load {:.5g}: points of integration follow the bodies around, an error of {:.1e} of the forces",
-            time, solver.renewal_residual()));
-      record_quasi_static(solver);
-      check_penetration();
-      say_equilibrium(end);
-      write_fields();
-      step = std::min(largest_step, 2. * step);
+      step *= 0.5;
+      progress.say(fmt::format("load {:.5g}: {}; trying half the step", time, fault->what));
+      if (step < smallest_step)
+        throw NumericalError(
+            Complaint(fmt::format("no equilibrium beyond load parameter {:.6g}: {}", state.time, fault->what))
+                .at(fault->where)
+                .expected(fault->allowed)
+                .advise(fault->next_step));
       continue;
     }
-    step *= 0.5;
-    progress.say(fmt::format("load {:.5g}: {}; trying half the step", time, solver.failure()));
-    if (step < smallest_step)
-      throw NumericalError(Complaint(fmt::format("no equilibrium beyond load parameter {:.6g}: {}",
-                                                 state.time, solver.failure()))
-                               .advise(solver.advice()));
+    ++results.n_steps;
+    record_quasi_static(solver);
+    say_equilibrium(end);
+    write_fields();
+    step = std::min(largest_step, 2. * step);
   }
 }
 

@@ -55,7 +55,7 @@ QuasiStaticSolver<dim>::QuasiStaticSolver(const Discretization<dim> &the_discret
   {
     longest_step = std::numeric_limits<double>::max();
     for (const Facet<dim> &facet : map->surface().facets)
-      longest_step = std::min(longest_step, 0.25 * facet.layer_thickness);
+      longest_step = std::min(longest_step, 0.25 * facet.room);
   }
 }
 

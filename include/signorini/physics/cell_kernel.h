@@ -37,6 +37,9 @@ public:
   /// Overwrites `tangent`, row-major with rows [node][component], with ∂²W/∂u∂u.
   void compute_tangent(const CellGeometry &cell, const double *u, double *tangent);
 
+  /// Volume mean of H + Hᵀ + HᵀH.
+  Eigen::Matrix<double, dim, dim> mean_stretch(const CellGeometry &cell, const double *u) const;
+
   /// Volume mean of the true stress [Pa].
   Eigen::Matrix3d mean_stress(const CellGeometry &cell, const double *u);
 

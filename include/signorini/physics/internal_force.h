@@ -30,6 +30,12 @@ public:
   /// what round-off is relative to [N].
   void add_magnitudes(Vector &magnitudes) const;
 
+  /// Whether the tangent depends on the deformation.
+  bool is_nonlinear() const;
+
+  /// Mean of H + Hᵀ + HᵀH over every own cell, twice Green's strain: a rigid motion leaves it at zero.
+  std::vector<SpatialTensor<dim>> stretches() const;
+
   /// Mean true stress of every own cell [Pa].
   std::vector<Eigen::Matrix3d> stresses() const;
 

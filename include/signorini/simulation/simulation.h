@@ -12,6 +12,7 @@
 #include "signorini/solvers/quasi_static_solver.h"
 
 #include <memory>
+#include <optional>
 #include <string>
 
 namespace signorini
@@ -35,15 +36,22 @@ public:
 
 private:
   void build_contact();
+  /// Throws InputError for a sphere that could pass between the points of a body's faces.
+  void check_sphere_sizes() const;
   void check_initial_overlap();
   void list_parts();
 
   void run_quasi_static(const QuasiStaticParameters &solver_parameters);
   void run_explicit(const ExplicitParameters &solver_parameters);
+  /// Returns why there is none, with the state as it was.
+  std::optional<Complaint> solve_load_step(QuasiStaticSolver<dim> &solver, double time);
   void record_explicit(const ExplicitSolver<dim> &solver, double time_step, double end_time);
   void record_quasi_static(const QuasiStaticSolver<dim> &solver);
   void say_equilibrium(double end_time);
-  void check_penetration();
+  /// Throws NumericalError if points could jump over what they ought to touch in an explicit step.
+  void check_motion(double time_step) const;
+  /// Whether points are so deep that they could pass through, in the state last measured.
+  std::optional<Complaint> find_deep_penetration() const;
   void update_contact_measures();
   void note_peaks();
   void record_bodies(const contact::PairForces<dim> &pair_forces);
