@@ -38,6 +38,7 @@ void Simulation<dim>::run_quasi_static(const QuasiStaticParameters &solver_param
   write_fields();
   while (state.time < end * (1. - 1e-12))
   {
+    check_interruption([]() {});
     const double time = end - state.time < step * (1. + 1e-9) ? end : state.time + step;
     const double share = state.time / end;
     const bool is_solved = solver.solve(time, state,
