@@ -218,14 +218,28 @@ std::vector<ErrorRow> bounce(const Results<dim> &results)
 }
 
 template <int dim>
+std::vector<ErrorRow> displacement(const Results<dim> &results)
+{
+  const DisplacementError &error = results.displacement_error;
+  const double relative = error.displacement / error.displacement_norm,
+               relative_energy = error.energy / error.energy_norm;
+  return {
+      {"displacement (relative L2 distance)", relative, 0., relative},
+      {"strain (relative distance in the energy norm)", relative_energy, 0., relative_energy},
+      compare("estimated discretization error", std::sqrt(results.estimate.discretization), error.energy)};
+}
+
+template <int dim>
 using Case = std::pair<std::string, std::function<std::vector<ErrorRow>(const Results<dim> &)>>;
 
 template <int dim>
 const std::vector<Case<dim>> &cases()
 {
   static const std::vector<Case<dim>> table{
-      {"Hertz sphere", hertz<dim>}, {"Hertz cylinder", hertz<dim>},  {"Squeezed bars", squeezed_bars<dim>},
-      {"Patch", patch<dim>},        {"Bar impact", bar_impact<dim>}, {"Bounce", bounce<dim>}};
+      {"Hertz sphere", hertz<dim>},          {"Hertz cylinder", hertz<dim>},
+      {"Squeezed bars", squeezed_bars<dim>}, {"Patch", patch<dim>},
+      {"Bar impact", bar_impact<dim>},       {"Bounce", bounce<dim>},
+      {"Displacement", displacement<dim>}};
   return table;
 }
 } // namespace

@@ -169,7 +169,7 @@ Parameters read_parameters(const ParameterText &text)
   if (text.find_subsection("Contact") != nullptr)
     parameters.contact = read_contact(text, in_use, bodies, obstacles);
   if (text.find_subsection("Exact solution") != nullptr)
-    parameters.exact_solution = read_exact_solution(text, in_use);
+    parameters.exact_solution = read_exact_solution(text, in_use, parameters.dimension);
   parameters.output = read_output(text, in_use);
   check_together(text, parameters);
   check_output_directory(parameters.output.directory, text.where("Output", "Directory"));

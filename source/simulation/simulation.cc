@@ -72,6 +72,7 @@ void Simulation<dim>::list_parts()
   note(!is_explicit, "quasi-static solver", "the run is explicit");
   note(is_explicit, "explicit solver", "the run is quasi-static");
   note(is_explicit, "mass and ledgers of energy and momentum", "the run is quasi-static");
+  note(true, "error estimate", "");
   note(parameters.exact_solution.has_value(), "exact solution", "no subsection Exact solution");
 }
 
@@ -79,6 +80,7 @@ template <int dim>
 void Simulation<dim>::run()
 {
   const std::string &directory = parameters.output.directory;
+  estimator = std::make_unique<ErrorEstimator<dim>>(*discretization, scene, forces, surface_map.get());
   fields = std::make_unique<Fields<dim>>(*discretization, surface_map.get(), directory);
   progress.open_log(directory);
   if (dealii::Utilities::MPI::this_mpi_process(communicator) == 0)
@@ -101,10 +103,17 @@ void Simulation<dim>::run()
 }
 
 template <int dim>
+void Simulation<dim>::estimate_error()
+{
+  const auto section = run_time.enter("error estimate");
+  results.estimate = estimator->estimate(state);
+}
+
+template <int dim>
 void Simulation<dim>::write_fields()
 {
   const auto section = run_time.enter("output");
-  fields->write(state, forces);
+  fields->write(state, forces, results.estimate);
 }
 
 template class Simulation<2>;

@@ -34,6 +34,7 @@ void Simulation<dim>::run_quasi_static(const QuasiStaticParameters &solver_param
   const double end = solver_parameters.end_time, largest_step = end / solver_parameters.load_steps;
   const double smallest_step = largest_step * std::pow(0.5, solver_parameters.max_bisections);
   double step = largest_step;
+  estimate_error();
   record_quasi_static(solver);
   write_fields();
   while (state.time < end * (1. - 1e-12))
@@ -51,6 +52,7 @@ void Simulation<dim>::run_quasi_static(const QuasiStaticParameters &solver_param
         progress.say(fmt::format(
             "load {:.5g}: points of integration follow the bodies around, an error of {:.1e} of the forces",
             time, solver.renewal_residual()));
+      estimate_error();
       record_quasi_static(solver);
       check_penetration();
       say_equilibrium(end);
@@ -100,6 +102,9 @@ void Simulation<dim>::record_quasi_static(const QuasiStaticSolver<dim> &solver)
   }
   append_resultants(row);
   append_bodies(row);
+  const ErrorEstimate &estimate = results.estimate;
+  row.emplace_back("estimated discretization error [1]", estimate.relative(estimate.discretization));
+  row.emplace_back("estimated contact error [1]", estimate.relative(estimate.contact));
   row.emplace_back("Newton iterations since the start [1]", results.n_iterations);
   if (statistics)
     statistics->write(row);

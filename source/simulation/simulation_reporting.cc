@@ -176,6 +176,10 @@ void Simulation<dim>::finish(const std::string &status)
   gather_samples();
   gather_nodal_pressures();
   gather_extremes();
+  if (parameters.exact_solution && !parameters.exact_solution->displacement.empty())
+    results.displacement_error =
+        measure_displacement_error(*discretization, scene.materials, state.displacement,
+                                   parameters.exact_solution->displacement, state.time);
   if (status == "ok")
     results.errors = compute_errors(results);
   results.run_time = run_time.sections();
@@ -212,6 +216,9 @@ void Simulation<dim>::print_results()
     progress.say(
         fmt::format("Energy ledger open by {:.2e} at most; momentum drift {:.2e} linear, {:.2e} angular",
                     results.max_ledger_residual, results.max_linear_drift, results.max_angular_drift));
+  const ErrorEstimate &estimate = results.estimate;
+  progress.say(fmt::format("Estimated error in the energy norm: {:.2e} discretization, {:.2e} contact",
+                           estimate.relative(estimate.discretization), estimate.relative(estimate.contact)));
   for (const ErrorRow &row : results.errors)
     progress.say(fmt::format("{:<52} {:>14.7g}  exact {:>14.7g}  error {:+.3e}", row.quantity, row.computed,
                              row.exact, row.relative_error));

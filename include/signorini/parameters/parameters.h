@@ -179,8 +179,9 @@ struct ExplicitParameters
 /// `subsection Exact solution`: what the run is measured against.
 struct ExactSolutionParameters
 {
-  std::string name;                     ///< entry of the table of exact solutions
-  std::map<std::string, double> values; ///< its numerical parameters, all present
+  std::string name;                      ///< entry of the table of exact solutions
+  std::map<std::string, double> values;  ///< its numerical parameters, all present
+  std::vector<std::string> displacement; ///< its displacement as formulas of x, y, z, t, one a component [m]
 };
 
 /// `subsection Output`.

@@ -30,6 +30,9 @@ public:
   /// what round-off is relative to [N].
   void add_magnitudes(Vector &magnitudes) const;
 
+  /// True stress at every quadrature point of the own cells, [cell][point] [Pa].
+  std::vector<Eigen::Matrix3d> point_stresses() const;
+
   /// Mean true stress of every own cell [Pa].
   std::vector<Eigen::Matrix3d> stresses() const;
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
+#include "signorini/adaptivity/error_estimator.h"
 #include "signorini/base/run_time.h"
 #include "signorini/discretization/supports.h"
 #include "signorini/discretization/surface_map.h"
@@ -52,6 +53,7 @@ private:
   void record_state();
   void set_initial_motion();
   void measure_bodies();
+  void estimate_error();
   void write_fields();
   void append_contact(Statistics::Row &row) const;
   void append_resultants(Statistics::Row &row) const;
@@ -78,6 +80,7 @@ private:
   State state;
   std::vector<bool> is_body_held;
 
+  std::unique_ptr<ErrorEstimator<dim>> estimator;
   std::unique_ptr<Fields<dim>> fields;
   std::unique_ptr<Statistics> statistics; ///< on rank 0
   Results<dim> results;

@@ -170,6 +170,40 @@ void ContactForce<dim>::add_row_sum_bounds(Vector &stiffness, Vector &damping) c
 }
 
 template <int dim>
+std::vector<std::array<double, Facet<dim>::max_n_nodes>> ContactForce<dim>::facet_pressures() const
+{
+  const ContactSurface<dim> &surface = map->surface();
+  std::vector<std::array<double, Facet<dim>::max_n_nodes>> pressures(surface.facets.size());
+  for (auto &of_facet : pressures)
+    of_facet.fill(0.);
+  for (const contact::ContactSample<dim> &sample : potential.samples())
+  {
+    const Facet<dim> &facet = surface.facets[sample.facet];
+    for (unsigned int i = 0; i < facet.n_nodes(); ++i)
+      pressures[sample.facet][i] +=
+          contact::evaluate_hat_function(facet, i, sample.xi) * sample.full_area * sample.pressure;
+  }
+  const auto points = contact::make_gauss_points<dim>(3);
+  for (unsigned int f = 0; f < surface.facets.size(); ++f)
+  {
+    const Facet<dim> &facet = surface.facets[f];
+    if (!facet.owned)
+      continue;
+    const auto nodes = contact::gather_nodes(facet, surface.reference_positions);
+    std::array<double, Facet<dim>::max_n_nodes> areas{};
+    for (const auto &point : points)
+    {
+      const double area = point.weight * contact::evaluate_facet_frame(nodes, point.xi).area_normal.norm();
+      for (unsigned int i = 0; i < facet.n_nodes(); ++i)
+        areas[i] += area * contact::evaluate_hat_function(facet, i, point.xi);
+    }
+    for (unsigned int i = 0; i < facet.n_nodes(); ++i)
+      pressures[f][i] /= areas[i];
+  }
+  return pressures;
+}
+
+template <int dim>
 std::vector<contact::ContactSample<dim>> ContactForce<dim>::samples() const
 {
   std::vector<contact::ContactSample<dim>> samples = potential.samples();
