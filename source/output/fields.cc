@@ -49,10 +49,15 @@ make_cell_data(const Discretization<dim> &discretization, const InternalForce<di
 } // namespace
 
 template <int dim>
-Fields<dim>::Fields(const Discretization<dim> &the_discretization, const SurfaceMap<dim> *surface_map,
-                    std::string output_directory)
-    : discretization(&the_discretization), map(surface_map), directory(std::move(output_directory))
+Fields<dim>::Fields(std::string output_directory) : directory(std::move(output_directory))
 {
+}
+
+template <int dim>
+void Fields<dim>::set_mesh(const Discretization<dim> &the_discretization, const SurfaceMap<dim> *surface_map)
+{
+  discretization = &the_discretization;
+  map = surface_map;
   if (map)
     number_contact_fields();
 }

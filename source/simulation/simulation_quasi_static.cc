@@ -26,34 +26,52 @@ std::string describe_iteration(double time, const NewtonReport &report)
 } // namespace
 
 template <int dim>
-void Simulation<dim>::run_quasi_static(const QuasiStaticParameters &solver_parameters)
+void Simulation<dim>::make_quasi_static_solver()
 {
-  QuasiStaticSolver<dim> solver(*discretization, *supports, scene, is_body_held, forces, surface_map.get(),
-                                solver_parameters, run_time);
-  progress.say("Linear solver: " + solver.linear_solver_name());
+  quasi_static_solver = std::make_unique<QuasiStaticSolver<dim>>(
+      *discretization, *supports, scene, is_body_held, forces, surface_map.get(),
+      std::get<QuasiStaticParameters>(parameters.solver), run_time);
+}
+
+template <int dim>
+bool Simulation<dim>::solve_quasi_static(double time)
+{
+  const double end = std::get<QuasiStaticParameters>(parameters.solver).end_time;
+  const double share = state.time / end;
+  const unsigned int n_before = quasi_static_solver->n_iterations();
+  const bool is_solved = quasi_static_solver->solve(
+      time, state,
+      [&](const NewtonReport &report) { progress.step(describe_iteration(time, report), share); });
+  results.n_iterations += quasi_static_solver->n_iterations() - n_before;
+  if (is_solved && quasi_static_solver->renewal_residual() > 0.)
+    progress.say(fmt::format(
+        "load {:.5g}: points of integration follow the bodies around, an error of {:.1e} of the forces", time,
+        quasi_static_solver->renewal_residual()));
+  return is_solved;
+}
+
+template <int dim>
+void Simulation<dim>::run_quasi_static()
+{
+  const auto &solver_parameters = std::get<QuasiStaticParameters>(parameters.solver);
+  make_quasi_static_solver();
+  progress.say("Linear solver: " + quasi_static_solver->linear_solver_name());
   const double end = solver_parameters.end_time, largest_step = end / solver_parameters.load_steps;
   const double smallest_step = largest_step * std::pow(0.5, solver_parameters.max_bisections);
   double step = largest_step;
   estimate_error();
-  record_quasi_static(solver);
+  record_quasi_static();
   write_fields();
   while (state.time < end * (1. - 1e-12))
   {
     const double time = end - state.time < step * (1. + 1e-9) ? end : state.time + step;
-    const double share = state.time / end;
-    const bool is_solved = solver.solve(time, state,
-                                        [&](const NewtonReport &report)
-                                        { progress.step(describe_iteration(time, report), share); });
-    results.n_iterations = solver.n_iterations();
-    if (is_solved)
+    if (solve_quasi_static(time))
     {
       ++results.n_steps;
-      if (solver.renewal_residual() > 0.)
-        progress.say(fmt::format(
-            "load {:.5g}: points of integration follow the bodies around, an error of {:.1e} of the forces",
-            time, solver.renewal_residual()));
       estimate_error();
-      record_quasi_static(solver);
+      if (parameters.adaptivity)
+        adapt_to_load();
+      record_quasi_static();
       check_penetration();
       say_equilibrium(end);
       write_fields();
@@ -61,10 +79,10 @@ void Simulation<dim>::run_quasi_static(const QuasiStaticParameters &solver_param
       continue;
     }
     step *= 0.5;
-    progress.say(fmt::format("load {:.5g}: {}; trying half the step", time, solver.failure()));
+    progress.say(fmt::format("load {:.5g}: {}; trying half the step", time, quasi_static_solver->failure()));
     if (step < smallest_step)
       throw NumericalError(Complaint(fmt::format("no equilibrium beyond load parameter {:.6g}: {}",
-                                                 state.time, solver.failure()))
+                                                 state.time, quasi_static_solver->failure()))
                                .advise("look at the last fields; use more load steps, or check that contact "
                                        "holds the bodies in every direction in which they are loaded"));
   }
@@ -83,10 +101,10 @@ void Simulation<dim>::say_equilibrium(double end)
 }
 
 template <int dim>
-void Simulation<dim>::record_quasi_static(const QuasiStaticSolver<dim> &solver)
+void Simulation<dim>::record_quasi_static()
 {
   record_state();
-  record_support_forces(solver.reactions());
+  record_support_forces(quasi_static_solver->reactions());
   results.energy.elastic = forces.elasticity->energy();
   results.energy.contact = 0.;
   for (const auto &term : forces.contacts)

@@ -83,6 +83,7 @@ template <int dim>
 void Simulation<dim>::measure_bodies()
 {
   nodal_volume = make_nodal_volume(*discretization);
+  results.body_masses.clear();
   results.body_volumes.assign(scene.n_bodies(), 0.);
   for (const OwnedNode<dim> &node : discretization->owned_nodes)
     results.body_volumes[node.body] += nodal_volume.local_element(node.dofs[0]);

@@ -28,8 +28,10 @@ template <int dim>
 class Fields
 {
 public:
-  /// `map` is null in scenes without contact.
-  Fields(const Discretization<dim> &discretization, const SurfaceMap<dim> *map, std::string directory);
+  explicit Fields(std::string directory);
+
+  /// Takes a new mesh; `map` is null in scenes without contact. Both must live until the next call.
+  void set_mesh(const Discretization<dim> &discretization, const SurfaceMap<dim> *map);
 
   /// Throws FileError (collective).
   void write(const State &state, const SceneForces<dim> &forces, const ErrorEstimate &estimate);
@@ -46,8 +48,8 @@ private:
   void number_contact_fields();
   std::pair<Vector, Vector> project_contact(const SceneForces<dim> &forces) const;
 
-  const Discretization<dim> *discretization;
-  const SurfaceMap<dim> *map;
+  const Discretization<dim> *discretization = nullptr;
+  const SurfaceMap<dim> *map = nullptr;
   std::string directory;
   std::unique_ptr<ContactFields> contact;
   std::vector<std::pair<double, std::string>> records;

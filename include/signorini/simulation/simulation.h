@@ -35,14 +35,22 @@ public:
   void run();
 
 private:
+  /// All that stands on the present mesh.
+  void build_on_mesh();
   void build_contact();
   void check_initial_overlap();
   void list_parts();
 
-  void run_quasi_static(const QuasiStaticParameters &solver_parameters);
+  void run_quasi_static();
   void run_explicit(const ExplicitParameters &solver_parameters);
   void record_explicit(const ExplicitSolver<dim> &solver, double time_step, double end_time);
-  void record_quasi_static(const QuasiStaticSolver<dim> &solver);
+  void record_quasi_static();
+  /// Returns false, with the state as it was, if there is no equilibrium.
+  bool solve_quasi_static(double time);
+  /// Refines the mesh and finds the equilibrium anew until the estimated error or the cycles end it.
+  void adapt_to_load();
+  void adapt_mesh();
+  void make_quasi_static_solver();
   void say_equilibrium(double end_time);
   void check_penetration();
   void update_contact_measures();
@@ -81,6 +89,7 @@ private:
   std::vector<bool> is_body_held;
 
   std::unique_ptr<ErrorEstimator<dim>> estimator;
+  std::unique_ptr<QuasiStaticSolver<dim>> quasi_static_solver; ///< quasi-static runs
   std::unique_ptr<Fields<dim>> fields;
   std::unique_ptr<Statistics> statistics; ///< on rank 0
   Results<dim> results;
