@@ -70,7 +70,9 @@ void make_cylinder(const MeshParameters &parameters, dealii::Triangulation<dim> 
 template <int dim>
 void name_curved_shape(const MeshParameters &parameters, dealii::Triangulation<dim> &mesh)
 {
+  // Not only the objects but the numbers too: deal.II leaves 1 on the outer cells of a ball.
   mesh.reset_all_manifolds();
+  mesh.set_all_manifold_ids(dealii::numbers::flat_manifold_id);
   const std::vector<std::string> names = boundary_names(parameters, dim);
   for (const auto &face : mesh.active_face_iterators())
     if (face->at_boundary())

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "signorini/discretization/discretization.h"
 
+#include "signorini/base/collective_error.h"
+#include "signorini/base/exceptions.h"
 #include "signorini/discretization/scene_mesh.h"
 
 #include <deal.II/base/quadrature_lib.h>
@@ -9,6 +11,9 @@
 #include <deal.II/dofs/dof_tools.h>
 #include <deal.II/fe/fe_q.h>
 #include <deal.II/fe/fe_values.h>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <numeric>
@@ -30,6 +35,7 @@ void Discretization<dim>::set_up()
   number_dofs();
   close_mapping();
   fill_cell_table();
+  throw_together(mpi_communicator, [this]() { check_cells(); });
   collect_owned_nodes();
 }
 
@@ -161,6 +167,30 @@ void Discretization<dim>::fill_cell_table()
                    [&](double measure) { return measure * volume / nodal_volume; });
     cells.bodies.push_back(cell->material_id());
     ++cells.n_cells;
+  }
+}
+
+template <int dim>
+void Discretization<dim>::check_cells() const
+{
+  const auto is_positive = [](double value) { return value > 0.; };
+  unsigned int own_cell = 0;
+  for (const auto &cell : dof_handler.active_cell_iterators())
+  {
+    if (!cell->is_locally_owned())
+      continue;
+    const double *weights = cells.cell_weights(own_cell),
+                 *measures = &cells.nodal_measures[own_cell * cells.n_nodes];
+    ++own_cell;
+    if (std::all_of(weights, weights + cells.n_points, is_positive) &&
+        std::all_of(measures, measures + cells.n_nodes, is_positive))
+      continue;
+    const dealii::Point<dim> centre = cell->center();
+    throw InputError(Complaint("the mesh has a cell that is partly inside out")
+                         .at(fmt::format("({:.6g})", fmt::join(centre.begin_raw(), centre.end_raw(), ", ")))
+                         .found(fmt::format("a cell {:.3g} m across of body number {}", cell->diameter(),
+                                            cell->material_id() + 1))
+                         .advise("refine that body, or give it another shape"));
   }
 }
 

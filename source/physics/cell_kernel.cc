@@ -119,6 +119,21 @@ void CellKernel<dim, Law>::compute_tangent(const CellGeometry &cell, const doubl
 }
 
 template <int dim, typename Law>
+Eigen::Matrix<double, dim, dim> CellKernel<dim, Law>::mean_stretch(const CellGeometry &cell,
+                                                                   const double *u) const
+{
+  Gradient sum = Gradient::Zero();
+  double volume = 0.;
+  for (unsigned int q = 0; q < cell.n_points; ++q)
+  {
+    const Gradient H = displacement_gradient(cell, q, u);
+    sum += cell.weights[q] * (H + H.transpose() + H.transpose() * H);
+    volume += cell.weights[q];
+  }
+  return sum / volume;
+}
+
+template <int dim, typename Law>
 void CellKernel<dim, Law>::compute_stresses(const CellGeometry &cell, const double *u,
                                             Eigen::Matrix3d *stresses)
 {

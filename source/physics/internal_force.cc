@@ -3,6 +3,7 @@
 
 #include <deal.II/base/mpi.h>
 
+#include <algorithm>
 #include <numeric>
 
 namespace signorini
@@ -149,6 +150,23 @@ std::vector<Eigen::Matrix3d> InternalForce<dim>::point_stresses() const
   std::vector<Eigen::Matrix3d> all(discretization->cells.n_cells * n_points);
   for_each_cell([&](auto &kernel, unsigned int cell, const CellGeometry &geometry, const double *u)
                 { kernel.compute_stresses(geometry, u, &all[cell * n_points]); });
+  return all;
+}
+
+template <int dim>
+bool InternalForce<dim>::is_nonlinear() const
+{
+  return std::any_of(kernels.begin(), kernels.end(),
+                     [](const Kernel &kernel)
+                     { return std::holds_alternative<CellKernel<dim, NeoHookean<dim>>>(kernel); });
+}
+
+template <int dim>
+std::vector<SpatialTensor<dim>> InternalForce<dim>::stretches() const
+{
+  std::vector<SpatialTensor<dim>> all;
+  for_each_cell([&](auto &kernel, unsigned int, const CellGeometry &geometry, const double *u)
+                { all.push_back(kernel.mean_stretch(geometry, u)); });
   return all;
 }
 

@@ -25,11 +25,13 @@ void Simulation<dim>::adapt_to_load()
         estimate.discretization == 0. || estimate.relative(estimate.total()) <= adaptivity.target_error)
       return;
     adapt_mesh();
-    if (!solve_quasi_static(state.time))
+    if (const std::optional<Complaint> fault = solve_load_step(state.time))
       throw NumericalError(
           Complaint(fmt::format("no equilibrium on the refined mesh at load parameter {:.6g}: {}", state.time,
-                                quasi_static_solver->failure()))
-              .advise("use more load steps, or begin with a finer mesh"));
+                                fault->what))
+              .at(fault->where)
+              .expected(fault->allowed)
+              .advise(fault->next_step));
     estimate_error();
   }
 }

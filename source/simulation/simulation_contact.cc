@@ -3,12 +3,15 @@
 #include "signorini/simulation/simulation.h"
 
 #include "signorini/base/exceptions.h"
+#include "signorini/parameters/contact_parameters.h"
 #include "signorini/simulation/initial_overlap.h"
 
 #include <fmt/core.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 namespace signorini
 {
@@ -112,6 +115,42 @@ void Simulation<dim>::update_contact_measures()
 }
 
 template <int dim>
+void Simulation<dim>::check_sphere_sizes() const
+{
+  // Between the points of a face a small sphere is not seen before it has gone this deep into a flat face.
+  const auto unseen_depth = [this](double radius, const Facet<dim> &facet)
+  {
+    const auto &x = surface_map->surface().reference_positions;
+    const double edge = (x[facet.nodes[facet.degree]] - x[facet.nodes[0]]).norm();
+    const double reach = 0.6 * std::sqrt(dim - 1.) * edge / parameters.contact->quadrature_points;
+    return reach < radius ? radius - std::sqrt(radius * radius - reach * reach)
+                          : std::numeric_limits<double>::max();
+  };
+  for (const ObstacleParameters &obstacle : parameters.obstacles)
+    for (unsigned int body = 0; body < scene.n_bodies(); ++body)
+    {
+      if (obstacle.shape != ObstacleParameters::Shape::sphere ||
+          is_pair_excluded(*parameters.contact, scene.body_names[body], obstacle.name))
+        continue;
+      const auto &facets = surface_map->surface().facets;
+      if (std::none_of(facets.begin(), facets.end(),
+                       [&](const Facet<dim> &facet) {
+                         return facet.body == body &&
+                                unseen_depth(obstacle.radius, facet) < 0.25 * facet.room;
+                       }))
+        throw InputError(
+            Complaint(
+                fmt::format("obstacle '{}' is too small for the faces of body '{}': it could slip between "
+                            "their points of integration",
+                            obstacle.name, scene.body_names[body]))
+                .at("subsection Obstacle " + obstacle.name)
+                .found(fmt::format("Radius = {}", obstacle.radius))
+                .expected("to be seen before it is a quarter of an element deep")
+                .advise("refine the body, raise Contact/Quadrature points, or exclude the pair"));
+    }
+}
+
+template <int dim>
 void Simulation<dim>::check_initial_overlap()
 {
   constexpr double allowed = 0.1;
@@ -128,6 +167,7 @@ void Simulation<dim>::check_initial_overlap()
   update_contact_measures();
   if (!results.has_contact)
     return;
+  check_sphere_sizes();
   const OverlapSearch<dim> search(parameters, scene, *discretization, *surface_map, state.displacement);
   std::optional<InitialOverlap<dim>> overlap = search.find_gross(allowed);
   if (!overlap && results.max_penetration_over_thickness > allowed)
@@ -155,19 +195,42 @@ void Simulation<dim>::check_initial_overlap()
 }
 
 template <int dim>
-void Simulation<dim>::check_penetration()
+void Simulation<dim>::check_motion(double time_step) const
 {
   constexpr double limit = 0.5;
-  if (results.contact.max_penetration_over_thickness <= limit)
+  if (!surface_map)
     return;
+  double thinnest = std::numeric_limits<double>::max();
+  for (const Facet<dim> &facet : surface_map->surface().facets)
+    thinnest = std::min(thinnest, facet.room);
+  const double motion = time_step * state.velocity.linfty_norm();
+  if (motion > limit * thinnest)
+    throw NumericalError(
+        Complaint(
+            fmt::format("bodies move by {:.3g} m in one step at t = {:.6g}: they could pass through each "
+                        "other unseen",
+                        motion, state.time))
+            .expected(
+                fmt::format("at most {} of the thinnest element or half body, {:.3g} m", limit, thinnest))
+            .advise("check speeds, loads and units, or lower Explicit/Bulk step factor"));
+}
+
+template <int dim>
+std::optional<Complaint> Simulation<dim>::find_deep_penetration() const
+{
+  constexpr double limit = 0.5;
   const auto &deepest = results.contact;
-  throw NumericalError(
-      Complaint(fmt::format("body '{}' sinks into another by {:.3g} of its element size at t = {:.6g}",
-                            scene.body_names[surface_map->surface().facets[deepest.deepest_facet].body],
-                            deepest.max_penetration_over_thickness, state.time))
-          .at(format_point<dim>(deepest.deepest_position))
-          .expected(fmt::format("at most {} of an element: deeper, it could pass through", limit))
-          .advise("raise Contact/Penalty factor, refine, or load more slowly"));
+  if (deepest.max_penetration_over_thickness <= limit)
+    return {};
+  const bool is_a_leap = deepest.max_penetration_over_thickness > 2.;
+  return Complaint(
+             fmt::format("body '{}' sinks into what it touches by {:.3g} of its element size at t = {:.6g}",
+                         scene.body_names[surface_map->surface().facets[deepest.deepest_facet].body],
+                         deepest.max_penetration_over_thickness, state.time))
+      .at(format_point<dim>(deepest.deepest_position))
+      .expected(fmt::format("at most {} of an element: deeper, it could pass through", limit))
+      .advise(is_a_leap ? "it moves farther than an element in one step: check speeds, loads and units"
+                        : "raise Contact/Penalty factor, refine, or load more slowly");
 }
 
 template class Simulation<2>;

@@ -36,13 +36,15 @@ void Simulation<dim>::run_explicit(const ExplicitParameters &solver_parameters)
                                        "Contact/Penalty factor"));
     const double time_step =
         remaining > 2. * stable ? stable : remaining / std::max(1., std::ceil(remaining / stable - 1e-9));
+    check_motion(time_step);
     solver.step(time_step, state);
     if (end - state.time < 1e-9 * time_step)
       state.time = end;
     ++results.n_steps;
     update_contact_measures();
     note_peaks();
-    check_penetration();
+    if (const std::optional<Complaint> fault = find_deep_penetration())
+      throw NumericalError(*fault);
     if (state.time >= end * row / n_rows)
     {
       solver.take_stock(state);
@@ -53,7 +55,6 @@ void Simulation<dim>::run_explicit(const ExplicitParameters &solver_parameters)
     {
       estimate_error();
       write_fields();
-      solver.update_bulk_bound();
       field = 1 + static_cast<unsigned int>(std::floor(state.time / end * n_fields));
     }
   }

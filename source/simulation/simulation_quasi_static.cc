@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace signorini
 {
@@ -34,20 +35,34 @@ void Simulation<dim>::make_quasi_static_solver()
 }
 
 template <int dim>
-bool Simulation<dim>::solve_quasi_static(double time)
+std::optional<Complaint> Simulation<dim>::solve_load_step(double time)
 {
-  const double end = std::get<QuasiStaticParameters>(parameters.solver).end_time;
-  const double share = state.time / end;
+  constexpr double largest_disturbance = 0.1;
+  const State before = state;
+  const double share = state.time / std::get<QuasiStaticParameters>(parameters.solver).end_time;
   const unsigned int n_before = quasi_static_solver->n_iterations();
   const bool is_solved = quasi_static_solver->solve(
       time, state,
       [&](const NewtonReport &report) { progress.step(describe_iteration(time, report), share); });
   results.n_iterations += quasi_static_solver->n_iterations() - n_before;
-  if (is_solved && quasi_static_solver->renewal_residual() > 0.)
+  if (!is_solved)
+    return Complaint(quasi_static_solver->failure()).advise(quasi_static_solver->advice());
+  update_contact_measures();
+  std::optional<Complaint> fault = find_deep_penetration();
+  const double disturbance = quasi_static_solver->renewal_residual();
+  if (!fault && disturbance > largest_disturbance)
+    fault = Complaint(
+                fmt::format("points of integration that follow the bodies around change the forces by {:.1g}",
+                            disturbance))
+                .advise("refine, or set Contact/Integration = face quadrature");
+  if (fault)
+    state = before;
+  else if (disturbance > 0.)
     progress.say(fmt::format(
-        "load {:.5g}: points of integration follow the bodies around, an error of {:.1e} of the forces", time,
-        quasi_static_solver->renewal_residual()));
-  return is_solved;
+        "load {:.5g}: points of integration follow the bodies around, which leaves an error of {:.1e} of the "
+        "forces",
+        time, disturbance));
+  return fault;
 }
 
 template <int dim>
@@ -65,26 +80,26 @@ void Simulation<dim>::run_quasi_static()
   while (state.time < end * (1. - 1e-12))
   {
     const double time = end - state.time < step * (1. + 1e-9) ? end : state.time + step;
-    if (solve_quasi_static(time))
+    if (const std::optional<Complaint> fault = solve_load_step(time))
     {
-      ++results.n_steps;
-      estimate_error();
-      if (parameters.adaptivity)
-        adapt_to_load();
-      record_quasi_static();
-      check_penetration();
-      say_equilibrium(end);
-      write_fields();
-      step = std::min(largest_step, 2. * step);
+      step *= 0.5;
+      progress.say(fmt::format("load {:.5g}: {}; trying half the step", time, fault->what));
+      if (step < smallest_step)
+        throw NumericalError(
+            Complaint(fmt::format("no equilibrium beyond load parameter {:.6g}: {}", state.time, fault->what))
+                .at(fault->where)
+                .expected(fault->allowed)
+                .advise(fault->next_step));
       continue;
     }
-    step *= 0.5;
-    progress.say(fmt::format("load {:.5g}: {}; trying half the step", time, quasi_static_solver->failure()));
-    if (step < smallest_step)
-      throw NumericalError(Complaint(fmt::format("no equilibrium beyond load parameter {:.6g}: {}",
-                                                 state.time, quasi_static_solver->failure()))
-                               .advise("look at the last fields; use more load steps, or check that contact "
-                                       "holds the bodies in every direction in which they are loaded"));
+    ++results.n_steps;
+    estimate_error();
+    if (parameters.adaptivity)
+      adapt_to_load();
+    record_quasi_static();
+    say_equilibrium(end);
+    write_fields();
+    step = std::min(largest_step, 2. * step);
   }
 }
 

@@ -48,6 +48,28 @@ void ExplicitSolver<dim>::start(State &state)
 }
 
 template <int dim>
+void ExplicitSolver<dim>::update_bulk_bound()
+{
+  bulk_frequency_squared = compute_bulk_frequency_squared(*forces->elasticity, *materials, *discretization);
+  if (forces->elasticity->is_nonlinear())
+    stretches_of_bound = forces->elasticity->stretches();
+}
+
+template <int dim>
+bool ExplicitSolver<dim>::is_bulk_bound_stale()
+{
+  constexpr unsigned int n_steps_between_looks = 10;
+  constexpr double largest_change = 0.02;
+  if (!forces->elasticity->is_nonlinear() || ++n_steps % n_steps_between_looks != 0)
+    return false;
+  const std::vector<SpatialTensor<dim>> stretches = forces->elasticity->stretches();
+  double change = 0.;
+  for (std::size_t cell = 0; cell < stretches.size(); ++cell)
+    change = std::max(change, (stretches[cell] - stretches_of_bound[cell]).norm());
+  return dealii::Utilities::MPI::max(change, discretization->communicator()) > largest_change;
+}
+
+template <int dim>
 double ExplicitSolver<dim>::stable_step() const
 {
   unsigned int n_searches = 0;
@@ -163,6 +185,8 @@ void ExplicitSolver<dim>::step(double time_step, State &state)
     state.velocity.local_element(supports->owned_dofs()[i]) = half_velocity_of_supports[i];
   discretization->distribute(state.velocity);
   book_step(state, time_step);
+  if (is_bulk_bound_stale())
+    update_bulk_bound();
 }
 
 template <int dim>

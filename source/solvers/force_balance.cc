@@ -131,6 +131,23 @@ unsigned int ForceBalance<dim>::worst_body() const
 }
 
 template <int dim>
+SpatialVector<dim> ForceBalance<dim>::unbalanced_force(unsigned int body) const
+{
+  std::vector<double> sums(dim + 1, 0.);
+  for (const OwnedNode<dim> &node : discretization->owned_nodes)
+    if (node.body == body)
+    {
+      SpatialVector<dim> force;
+      for (unsigned int d = 0; d < dim; ++d)
+        sums[d] += force[d] = free_forces.local_element(node.dofs[d]);
+      sums[dim] += force.norm();
+    }
+  dealii::Utilities::MPI::sum(sums, discretization->communicator(), sums);
+  const SpatialVector<dim> resultant(sums.data());
+  return resultant.norm() > 0.9 * sums[dim] ? resultant : SpatialVector<dim>(SpatialVector<dim>::Zero());
+}
+
+template <int dim>
 bool ForceBalance<dim>::is_within(double tolerance, bool has_stagnated) const
 {
   for (unsigned int body = 0; body < norms.size(); ++body)

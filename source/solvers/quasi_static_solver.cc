@@ -7,6 +7,7 @@
 #include <deal.II/dofs/dof_tools.h>
 
 #include <fmt/core.h>
+#include <fmt/ranges.h>
 
 #include <cmath>
 #include <limits>
@@ -54,7 +55,7 @@ QuasiStaticSolver<dim>::QuasiStaticSolver(const Discretization<dim> &the_discret
   {
     longest_step = std::numeric_limits<double>::max();
     for (const Facet<dim> &facet : map->surface().facets)
-      longest_step = std::min(longest_step, 0.25 * facet.layer_thickness);
+      longest_step = std::min(longest_step, 0.25 * facet.room);
   }
 }
 
@@ -229,16 +230,18 @@ bool QuasiStaticSolver<dim>::find_minimum(State &state, NewtonReport &progress, 
     progress.residual = balance.judge(state);
     report(progress);
     if (!std::isfinite(progress.residual))
-      give_up("an element was turned inside out");
+      give_up("an element was turned inside out",
+              "use more load steps, or check loads against the stiffness");
     const bool has_stagnated = progress.residual > 0.5 * residual_before;
     if (balance.is_within(parameters.tolerance, has_stagnated))
       return has_stagnated;
     if (iteration == parameters.max_iterations)
-      give_up(fmt::format("Newton's method only reached a relative residual of {:.3g}", progress.residual));
+      give_up(fmt::format("Newton's method only reached a relative residual of {:.3g}", progress.residual),
+              "use more load steps, or raise Quasi-static/Maximum iterations");
     progress.linear_iterations = compute_increment(DrivenBy::residual, increment);
     progress.step_length = search_along(increment, state);
     if (progress.step_length == 0.)
-      give_up("no step along Newton's direction lowers the energy");
+      give_up("no step along Newton's direction lowers the energy", "use more load steps");
     ++total_iterations;
   }
 }
@@ -271,15 +274,28 @@ void QuasiStaticSolver<dim>::find_equilibrium(double time, State &state, const R
 }
 
 template <int dim>
-void QuasiStaticSolver<dim>::give_up(const std::string &why) const
+void QuasiStaticSolver<dim>::give_up(const std::string &why, const std::string &advice) const
 {
+  for (unsigned int body = 0; body < scene->n_bodies(); ++body)
+    if (!is_body_held[body] && !balance.is_touched(body) && balance.is_loaded(body))
+      throw NumericalError(
+          Complaint(fmt::format("{}; body '{}' flies off: nothing touches it", why, scene->body_names[body]))
+              .advise("check that the loads press the bodies together, or add a support"));
   const unsigned int body = balance.worst_body();
-  std::string text = fmt::format("{}; body '{}' is farthest from equilibrium", why, scene->body_names[body]);
-  if (!is_body_held[body] && !balance.is_touched(body))
-    text += ", and nothing touches it";
-  else if (balance.round_off_share(body) > parameters.tolerance)
-    text += fmt::format(", where round-off alone may be {:.1g} of the forces", balance.round_off_share(body));
-  throw NumericalError(text);
+  const std::string what =
+      fmt::format("{}; body '{}' is farthest from equilibrium", why, scene->body_names[body]);
+  const SpatialVector<dim> net_force = balance.unbalanced_force(body);
+  if (!is_body_held[body] && net_force.norm() > 0.)
+    throw NumericalError(
+        Complaint(fmt::format("{}: a net force of ({:.4g}) N is left that nothing balances", what,
+                              fmt::join(net_force.data(), net_force.data() + dim, ", ")))
+            .advise("add a support: contact without friction lets bodies slide"));
+  if (balance.round_off_share(body) > parameters.tolerance)
+    throw NumericalError(
+        Complaint(fmt::format("{}, where round-off alone may be {:.1g} of the forces", what,
+                              balance.round_off_share(body)))
+            .advise("lower Contact/Penalty factor, or raise Quasi-static/Tolerance above that share"));
+  throw NumericalError(Complaint(what).advise(advice));
 }
 
 template <int dim>
@@ -293,7 +309,7 @@ bool QuasiStaticSolver<dim>::solve(double time, State &state, const Report &repo
   }
   catch (const NumericalError &error)
   {
-    reason = error.complaint().what;
+    complaint = error.complaint();
     state = before;
     return false;
   }

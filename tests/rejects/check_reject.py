@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Run `signorini --validate FILE` and compare its exit code and message with the comments at the head of the file.
+"""Run `signorini FILE MORE` and compare its exit code and message with the comments at the head of the file.
 
+MORE are the program's options that hold for all files of a folder, such as --validate.
 Comments: `# exit: CODE`, any number of `# message: FRAGMENT` (all must appear in the message), and
 `# options: ...` (further options, as in a shell).
 """
@@ -22,10 +23,10 @@ def read_expectation(file):
 
 
 def main():
-    program, file = sys.argv[1:]
+    program, file, *more = sys.argv[1:]
     expectation = read_expectation(file)
     options = [word for line in expectation["options"] for word in shlex.split(line)]
-    run = subprocess.run([program, "--validate", *options, file], capture_output=True, text=True, check=False)
+    run = subprocess.run([program, *more, *options, file], capture_output=True, text=True, check=False)
     message = run.stdout + run.stderr
     faults = [f"the message lacks '{text}'" for text in expectation["message"] if text not in message]
     if [str(run.returncode)] != expectation["exit"]:

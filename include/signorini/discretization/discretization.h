@@ -79,6 +79,7 @@ private:
   void number_dofs();
   void close_mapping();
   void fill_cell_table();
+  void check_cells() const;
   void collect_owned_nodes();
 
   MPI_Comm mpi_communicator;

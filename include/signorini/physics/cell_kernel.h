@@ -40,6 +40,9 @@ public:
   /// Overwrites `stresses` [point] with the true stress, with its out-of-plane component in 2-D [Pa].
   void compute_stresses(const CellGeometry &cell, const double *u, Eigen::Matrix3d *stresses);
 
+  /// Volume mean of H + Hᵀ + HᵀH.
+  Eigen::Matrix<double, dim, dim> mean_stretch(const CellGeometry &cell, const double *u) const;
+
 private:
   using Gradient = Eigen::Matrix<double, dim, dim>;
 

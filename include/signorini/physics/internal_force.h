@@ -33,6 +33,12 @@ public:
   /// True stress at every quadrature point of the own cells, [cell][point] [Pa].
   std::vector<Eigen::Matrix3d> point_stresses() const;
 
+  /// Whether the tangent depends on the deformation.
+  bool is_nonlinear() const;
+
+  /// Mean of H + Hᵀ + HᵀH over every own cell, twice Green's strain: a rigid motion leaves it at zero.
+  std::vector<SpatialTensor<dim>> stretches() const;
+
   /// Mean true stress of every own cell [Pa].
   std::vector<Eigen::Matrix3d> stresses() const;
 

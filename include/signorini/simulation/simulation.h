@@ -13,6 +13,7 @@
 #include "signorini/solvers/quasi_static_solver.h"
 
 #include <memory>
+#include <optional>
 #include <string>
 
 namespace signorini
@@ -38,21 +39,26 @@ private:
   /// All that stands on the present mesh.
   void build_on_mesh();
   void build_contact();
+  /// Throws InputError for a sphere that could pass between the points of a body's faces.
+  void check_sphere_sizes() const;
   void check_initial_overlap();
   void list_parts();
 
   void run_quasi_static();
   void run_explicit(const ExplicitParameters &solver_parameters);
+  /// Returns why there is none, with the state as it was.
+  std::optional<Complaint> solve_load_step(double time);
   void record_explicit(const ExplicitSolver<dim> &solver, double time_step, double end_time);
   void record_quasi_static();
-  /// Returns false, with the state as it was, if there is no equilibrium.
-  bool solve_quasi_static(double time);
   /// Refines the mesh and finds the equilibrium anew until the estimated error or the cycles end it.
   void adapt_to_load();
   void adapt_mesh();
   void make_quasi_static_solver();
   void say_equilibrium(double end_time);
-  void check_penetration();
+  /// Throws NumericalError if points could jump over what they ought to touch in an explicit step.
+  void check_motion(double time_step) const;
+  /// Whether points are so deep that they could pass through, in the state last measured.
+  std::optional<Complaint> find_deep_penetration() const;
   void update_contact_measures();
   void note_peaks();
   void record_bodies(const contact::PairForces<dim> &pair_forces);

@@ -33,12 +33,6 @@ public:
   /// Largest step that is stable from the present state on, with its factors [s].
   double stable_step() const;
 
-  /// Frequencies of the bodies anew, from their present deformation.
-  void update_bulk_bound()
-  {
-    bulk_frequency_squared = compute_bulk_frequency_squared(*forces->elasticity, *materials, *discretization);
-  }
-
   void step(double time_step, State &state);
 
   /// Brings the energies and momenta of the ledgers up to the present state.
@@ -48,6 +42,9 @@ public:
   const MomentumLedger &momentum() const { return momentum_ledger; }
 
 private:
+  void update_bulk_bound();
+  /// Where the law is not linear, every few steps: has any cell been strained by more than a little since?
+  bool is_bulk_bound_stale();
   void compute_forces(const State &state, const Vector &velocity);
   void compute_contact_forces(const State &state, const Vector &velocity);
   void compute_load_forces(const State &state);
@@ -70,6 +67,8 @@ private:
   VectorAndMoment external, old_external;
   bool has_external_forces = false;
   double bulk_frequency_squared = 0.;
+  std::vector<SpatialTensor<dim>> stretches_of_bound; ///< [own cell]; laws that are not linear only
+  unsigned int n_steps = 0;
   mutable ContactBound contact_bound;
   mutable unsigned int n_searches_of_bound = 0;
   EnergyLedger energy_ledger;

@@ -44,6 +44,12 @@ public:
 
   bool is_touched(unsigned int body) const { return norms[body].contact > 0.; }
 
+  bool is_loaded(unsigned int body) const { return norms[body].load > 0.; }
+
+  /// Resultant of a body's residual forces where they nearly all point one way, as those of a body that
+  /// nothing holds in that direction do; else zero [N] (collective).
+  SpatialVector<dim> unbalanced_force(unsigned int body) const;
+
   /// What round-off may leave of a body's residual, relative like that.
   double round_off_share(unsigned int body) const { return round_off_shares[body]; }
 

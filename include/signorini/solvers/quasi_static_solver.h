@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
+#include "signorini/base/exceptions.h"
 #include "signorini/solvers/force_balance.h"
 #include "signorini/solvers/linear_solver.h"
 
@@ -37,10 +38,11 @@ public:
 
   /// Moves `state`, which must obey the supports at its own time, to the equilibrium at `time`; `report` is
   /// called after every iteration. Returns false, with `state` as it was, if Newton's method failed;
-  /// `failure()` then says why.
+  /// `failure()` then says why, and `advice()` what to do.
   bool solve(double time, State &state, const Report &report);
 
-  const std::string &failure() const { return reason; }
+  const std::string &failure() const { return complaint.what; }
+  const std::string &advice() const { return complaint.next_step; }
   unsigned int n_iterations() const { return total_iterations; }
 
   /// 0, or, where points of integration and bodies followed each other around, by how much new points last
@@ -64,7 +66,8 @@ private:
   /// before the tolerance, at round-off. Throws NumericalError.
   bool find_minimum(State &state, NewtonReport &progress, const Report &report);
   double renew_points(const State &state);
-  [[noreturn]] void give_up(const std::string &why) const;
+  /// Throws NumericalError with what is known of the body farthest from equilibrium.
+  [[noreturn]] void give_up(const std::string &why, const std::string &advice) const;
 
   /// Returns whether any support moves between the two times.
   bool make_constraints(double old_time, double time);
@@ -92,7 +95,7 @@ private:
   unsigned int n_searches_of_matrix = static_cast<unsigned int>(-1);
   double longest_step = 0.; ///< no node moves farther in one iteration [m]; 0: no limit
   double disturbance = 0.;
-  std::string reason;
+  Complaint complaint{""};
   unsigned int total_iterations = 0;
 };
 } // namespace signorini

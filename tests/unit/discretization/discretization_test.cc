@@ -83,6 +83,27 @@ TYPED_TEST(Discretizations, EveryNodeIsOwnedOnceByItsBody)
   EXPECT_EQ(dim * built.discretization.owned_nodes.size(), dofs.size());
 }
 
+TYPED_TEST(Discretizations, BallsDoNotShareTheirManifolds)
+{
+  // Alike but for a shift: all cells of the second have the volumes of the first.
+  constexpr int dim = TypeParam::dim;
+  BodyParameters left = make_ball("left", 1., 2), right = make_ball("right", 1., 2);
+  right.placement.shift = {3., 1., 2.};
+  BuiltScene<dim> built({left, right}, TypeParam::degree);
+  const CellTable<dim> &cells = built.discretization.cells;
+  std::array<std::vector<double>, 2> measures;
+  for (unsigned int cell = 0; cell < cells.n_cells; ++cell)
+    for (unsigned int node = 0; node < cells.n_nodes; ++node)
+      measures[cells.bodies[cell]].push_back(cells.nodal_measures[cell * cells.n_nodes + node]);
+  ASSERT_EQ(measures[0].size(), measures[1].size());
+  ASSERT_FALSE(measures[0].empty());
+  for (std::size_t i = 0; i < measures[0].size(); ++i)
+  {
+    EXPECT_GT(measures[0][i], 0.);
+    EXPECT_NEAR(measures[1][i], measures[0][i], 1e-12);
+  }
+}
+
 TYPED_TEST(Discretizations, SurfaceNodesOfABallLieOnItsSphere)
 {
   constexpr int dim = TypeParam::dim;

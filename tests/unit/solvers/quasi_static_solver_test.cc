@@ -196,8 +196,7 @@ TYPED_TEST(QuasiStatic, FailureNamesTheBodyThatNothingTouches)
   built.add_contact(make_settings(contact::Integration::face_quadrature));
   StaticRun<dim> run(built);
   ASSERT_FALSE(run.solve(1.));
-  EXPECT_NE(run.solver.failure().find("'block' is farthest from equilibrium, and nothing touches it"),
-            std::string::npos)
+  EXPECT_NE(run.solver.failure().find("'block' flies off: nothing touches it"), std::string::npos)
       << run.solver.failure();
 }
 
