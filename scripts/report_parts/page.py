@@ -82,12 +82,16 @@ def header(summary, title):
     pieces = [f'{summary.get("program", "Signorini")} {summary.get("version", "")}'.strip(),
               str(summary.get("input", "")), plural(ranks, "rank") if ranks else ""]
     return (f'<header><h1>{text(title)}<span class="badge{"" if good else " bad"}">{text(status)}</span></h1>'
-            f'<p>{text(" · ".join(piece for piece in pieces if piece))}</p>{failure(summary)}</header>')
+            f'<p>{text(" · ".join(piece for piece in pieces if piece))}</p>{failure(summary)}{warnings(summary)}</header>')
 
 
 def failure(summary):
     reason = summary.get("reason", "")
     return f'<pre class="card">{text(reason)}</pre>' if reason else ""
+
+
+def warnings(summary):
+    return "".join(f'<pre class="card">Warning: {text(warning)}</pre>' for warning in summary.get("warnings") or [])
 
 
 def key_figures(summary):

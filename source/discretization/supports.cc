@@ -107,10 +107,15 @@ SupportedDofs<dim>::SupportedDofs(const Scene<dim> &the_scene, const Discretizat
       {
         const Support<dim> &one = scene->supports[all.back().support],
                            &other = scene->supports[entry.support];
-        throw InputError("Body " + scene->body_names[one.body] + ": the supports '" + one.boundary +
-                         "' and '" + other.boundary + "' contradict each other in component " +
-                         "xyz"[one.component] +
-                         " on the edge they share; leave that component out of one of them");
+        throw InputError(Complaint("the supports '" + one.boundary + "' and '" + other.boundary +
+                                   "' of body '" + scene->body_names[one.body] +
+                                   "' contradict each other in component " + "xyz"[one.component] +
+                                   " on the edge they share")
+                             .at(other.description)
+                             .found(other.displacement.formula() + "; the other, " + one.description +
+                                    ", has " + one.displacement.formula())
+                             .expected("the same displacement wherever both hold")
+                             .advise("leave that component out of one of them"));
       }
   }
   const Vector layout = discretization.make_vector();

@@ -123,6 +123,7 @@ void write_summary(const Results<dim> &results, const std::string &input, unsign
                {"n_steps", results.n_steps}, {"n_iterations", results.n_iterations}};
   if (!results.reason.empty())
     summary["reason"] = results.reason;
+  summary["warnings"] = results.warnings;
   summary["run_time"] = {{"total", results.total_run_time}, {"sections", results.run_time}};
   summary["memory_peak_mb"] = results.memory_peak_mb;
   if (results.has_contact)

@@ -175,6 +175,25 @@ LoadParameters read_load(const SectionReader &section, const std::string &bounda
   return load;
 }
 
+/// Throws for a load along a component that a support of the same boundary prescribes: it would do nothing.
+void check_loads(const BodyParameters &body, const unsigned int dimension)
+{
+  for (const LoadParameters &load : body.loads)
+    for (const SupportParameters &support : body.supports)
+      for (unsigned int c = 0; c < dimension; ++c)
+        if (load.boundary == support.boundary && support.displacement[c] &&
+            parse_number(load.traction[c]).value_or(1.) != 0.)
+          throw InputError(
+              Complaint(fmt::format("the load and the support of boundary '{}' of body '{}' "
+                                    "contradict each other in component {}",
+                                    load.boundary, body.name, "xyz"[c]))
+                  .at(load.place)
+                  .found(fmt::format("traction {}, but the support at {} prescribes {} = {}",
+                                     load.traction[c], support.places[c], "xyz"[c], *support.displacement[c]))
+                  .expected("0 for a component that is supported")
+                  .advise("set the component of the traction to 0, or leave it out of the support"));
+}
+
 /// Throws for a body so far from the origin, or so thin, that its coordinates have no digits left for its
 /// shape.
 void check_digits(const SectionReader &mesh, const BodyParameters &body, const unsigned int dimension)
@@ -246,6 +265,7 @@ BodyParameters read_body(const ParameterText &text, const Declarations &in_use, 
   { return read_support(section_of, boundary, dimension); };
   read_each("Support ", read_one_support, body.supports);
   read_each("Load ", read_load, body.loads);
+  check_loads(body, dimension);
   return body;
 }
 } // namespace signorini

@@ -143,6 +143,17 @@ void check_value(const ParameterEntry &entry, const Declaration &declaration)
                                            : "correct the value; write numbers without their unit"));
 }
 
+void check_required(const ParameterText &text, const Declaration &declaration)
+{
+  if (!declaration.required || !text.value(declaration.path, declaration.key).empty())
+    return;
+  throw InputError(Complaint(fmt::format("'{}' is missing", join_path(declaration.path, declaration.key)))
+                       .at(text.where(declaration.path))
+                       .expected(declaration.range.description() +
+                                 (declaration.unit.empty() ? "" : " [" + declaration.unit + "]"))
+                       .advise(fmt::format("add 'set {} = …' there: {}", declaration.key, declaration.text)));
+}
+
 /// The choice that decides which entries belong to a subsection.
 std::string deciding_choice(const ParameterText &text, const Declarations &in_use, const std::string &path)
 {
@@ -157,9 +168,14 @@ void check_names_and_values(const ParameterText &text, const Declarations &every
 {
   // The names of bodies and obstacles first: which subsections are valid follows from them.
   for (const ParameterEntry &entry : text.entries)
-    if (const Declaration *const declaration = everything.find(entry.path, entry.key);
-        declaration != nullptr && entry.path.empty())
-      check_value(entry, *declaration);
+    if (entry.path.empty())
+    {
+      check_name(entry, everything);
+      check_value(entry, *everything.find(entry.path, entry.key));
+    }
+  for (const Declaration &declaration : everything.entries)
+    if (declaration.path.empty())
+      check_required(text, declaration);
   for (const ParameterSubsection &subsection : text.subsections)
     check_name(subsection, everything);
   for (const ParameterEntry &entry : text.entries)
@@ -182,12 +198,6 @@ void check_presence(const ParameterText &text, const Declarations &in_use)
               .advise("remove one of the two"));
     }
   for (const Declaration &declaration : in_use.entries)
-    if (declaration.required && text.value(declaration.path, declaration.key).empty())
-      throw InputError(
-          Complaint(fmt::format("'{}' is missing", join_path(declaration.path, declaration.key)))
-              .at(text.where(declaration.path))
-              .expected(declaration.range.description() +
-                        (declaration.unit.empty() ? "" : " [" + declaration.unit + "]"))
-              .advise(fmt::format("add 'set {} = …' there: {}", declaration.key, declaration.text)));
+    check_required(text, declaration);
 }
 } // namespace signorini

@@ -2,16 +2,14 @@
 #include "signorini/parameters/parameter_text.h"
 
 #include "signorini/base/exceptions.h"
+#include "signorini/parameters/input_file.h"
 #include "signorini/parameters/strings.h"
-
-#include <deal.II/base/mpi.h>
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
-#include <iostream>
 #include <sstream>
 
 namespace signorini
@@ -20,7 +18,7 @@ namespace
 {
 std::string location(const std::string &file, const int line)
 {
-  return file == "--set" ? "--set on the command line" : fmt::format("{}:{}", display_name(file), line);
+  return line == 0 ? file : fmt::format("{}:{}", display_name(file), line);
 }
 
 /// What a quotation of a line that may hold anything looks like in a message.
@@ -31,13 +29,6 @@ std::string quote(const std::string &line)
     if (static_cast<unsigned char>(character) < 32 || character == 127)
       character = '?';
   return "'" + result + (line.size() > 60 ? "…'" : "'");
-}
-
-std::string read_stream(std::istream &stream)
-{
-  std::ostringstream content;
-  content << stream.rdbuf();
-  return content.str();
 }
 
 /// Scans one file after the other (includes) into one ParameterText.
@@ -183,8 +174,8 @@ void Scanner::take_include(const LogicalLine &line, const std::string &name)
   namespace fs = std::filesystem;
   const fs::path folder = files.back() == "-" ? fs::path() : fs::path(files.back()).parent_path();
   const std::string file = (folder / name).lexically_normal().string();
-  std::ifstream stream(file);
-  if (name.empty() || fs::is_directory(file) || !stream)
+  std::error_code failure;
+  if (name.empty() || !fs::is_regular_file(file, failure) || !std::ifstream(file))
     throw InputError(Complaint(fmt::format("the included file '{}' cannot be read", name))
                          .at(here(line.number))
                          .found(file)
@@ -199,30 +190,13 @@ void Scanner::take_include(const LogicalLine &line, const std::string &name)
                          .at(here(line.number))
                          .found(join(files, " includes "))
                          .advise("remove this 'include'"));
-  scan(read_stream(stream), file);
-}
-
-std::string read_standard_input()
-{
-  std::string content;
-  if (dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0)
-    content = read_stream(std::cin);
-  return dealii::Utilities::MPI::broadcast(MPI_COMM_WORLD, content, 0);
-}
-
-std::string read_file(const std::string &file)
-{
-  std::ifstream stream(file);
-  if (std::filesystem::is_directory(file) || !stream)
-    throw FileError(Complaint(fmt::format("the parameter file '{}' cannot be read", file))
-                        .advise("give the name of an existing parameter file, or - for standard input"));
-  return read_stream(stream);
+  scan(read_input_file(file), file);
 }
 } // namespace
 
 std::string ParameterEntry::where() const
 {
-  return file == "--set" ? fmt::format("--set '{}={}'", join_path(path, key), value) : location(file, line);
+  return location(file, line);
 }
 
 std::string ParameterSubsection::name() const
@@ -308,7 +282,7 @@ ParameterText scan_parameter_text(const std::string &content, const std::string 
 
 ParameterText read_parameter_text(const std::string &file)
 {
-  return scan_parameter_text(file == "-" ? read_standard_input() : read_file(file), file);
+  return scan_parameter_text(file == "-" ? read_standard_input() : read_input_file(file), file);
 }
 
 void apply_override(ParameterText &text, const std::string &override_text)
@@ -323,14 +297,15 @@ void apply_override(ParameterText &text, const std::string &override_text)
                          .at("--set")
                          .found("'" + override_text + "'")
                          .advise("write --set 'Body ball/Material/Density=7800'"));
+  const std::string quotation = "--set '" + override_text + "'";
   std::string opened;
   for (const std::string &part : split(path, '/'))
   {
     opened = join_path(opened, collapse_spaces(part));
     if (text.find_subsection(opened) == nullptr)
-      text.subsections.push_back({opened, "--set", 0});
+      text.subsections.push_back({opened, quotation, 0});
   }
-  const ParameterEntry entry{opened, key, trim(override_text.substr(equals + 1)), "--set", 0};
+  const ParameterEntry entry{opened, key, trim(override_text.substr(equals + 1)), quotation, 0};
   if (const ParameterEntry *const present = text.find(opened, key))
     text.entries[present - text.entries.data()] = entry;
   else

@@ -32,7 +32,8 @@ void declare_top_level(Declarations &declarations, const DeclarationScope &scope
   top.add("Degree", integer_from(1, 2), "1", "", "Polynomial degree of all elements.");
   top.add_required("Bodies", any_names(), "", "Names of the bodies; each has a subsection 'Body NAME'.");
   top.add("Obstacles", any_names(), "", "", "Names of the obstacles; each has a subsection 'Obstacle NAME'.");
-  top.add("Gravity", scope.vector(), scope.components("0, 0, 0"), "m/s²", "Acceleration of all bodies.");
+  top.add("Gravity", scope.vector(), scope.components("0, 0, 0"), "m/s²",
+          "Acceleration of all bodies; in 2-D two numbers, or three with the third 0.");
 }
 
 /// Throws unless the subsection is there.
@@ -50,10 +51,6 @@ void require(const ParameterText &text, const std::string &path, const std::stri
 void check_subsections(const ParameterText &text, const SectionReader &top,
                        const std::vector<std::string> &bodies, const std::vector<std::string> &obstacles)
 {
-  if (bodies.empty())
-    throw InputError(top.complain("Bodies", "'Bodies' is missing: there is nothing to calculate")
-                         .expected("at least one name")
-                         .advise("add 'set Bodies = NAME' and 'subsection Body NAME'"));
   for (const std::string &body : bodies)
   {
     const std::string path = "Body " + body;
@@ -115,6 +112,22 @@ void check_densities(const ParameterText &text, const Parameters &parameters)
     }
 }
 
+/// The listing of all parameters shows the names of bodies and obstacles as NAME.
+void reject_template(const ParameterText &text)
+{
+  for (const std::string key : {"Bodies", "Obstacles"})
+    for (const std::string &name : split(text.value("", key), ','))
+      if (name == "NAME")
+        throw InputError(
+            Complaint("this is the template that 'signorini --parameters' prints: NAME stands for "
+                      "a name of your own")
+                .at(text.where("", key))
+                .found(key + " = " + text.value("", key))
+                .expected("names other than NAME")
+                .advise("replace every NAME, fill in what is required, and remove the "
+                        "subsections that the scene does not need"));
+}
+
 /// What can only be seen once all subsections have been read.
 void check_together(const ParameterText &text, const Parameters &parameters)
 {
@@ -154,6 +167,7 @@ Declarations declare_parameters(const ParameterText &text, const Extent extent)
 
 Parameters read_parameters(const ParameterText &text)
 {
+  reject_template(text);
   check_names_and_values(text, declare_parameters(text, Extent::everything));
   const Declarations in_use = declare_parameters(text, Extent::in_use);
   const unsigned int dimension = dimension_of(text);

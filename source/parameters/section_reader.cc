@@ -59,7 +59,7 @@ Triple SectionReader::vector(const std::string &key) const
   if (dimension == 2 && result[2] != 0.)
     throw InputError(
         complain(key, fmt::format("the third component of '{}' is not zero in two dimensions", key))
-            .expected("two components, or a third that is 0")
+            .expected("2 or 3 numbers separated by commas, the third 0")
             .advise("the second component is the vertical one, or set Dimension = 3"));
   return result;
 }

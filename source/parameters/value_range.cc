@@ -70,7 +70,7 @@ std::string describe_components(const ValueRange &range)
     return (integer ? "an integer" : "a number") + bounds;
   const std::string count = range.min_components == range.max_components
                                 ? fmt::format("{}", range.max_components)
-                                : fmt::format("{} to {}", range.min_components, range.max_components);
+                                : fmt::format("{} or {}", range.min_components, range.max_components);
   return fmt::format("{} {}{} separated by commas", count, integer ? "integers" : "numbers", bounds);
 }
 

@@ -78,29 +78,78 @@ std::vector<unsigned int> take_group(const Parameters &parameters, std::vector<u
   return group;
 }
 
-/// Throws for a group of bodies that only touch each other, none of which has a support.
+/// Gram matrix of the rigid motions at the supported degrees of freedom of some bodies, moved together.
+/// Lengths are measured by the distance of the supported points, so that shifts and rotations compare.
 template <int dim>
-void check_groups(const Parameters &parameters, const Scene<dim> &scene)
+Eigen::MatrixXd make_gram_matrix(const Scene<dim> &scene, const SupportedDofs<dim> &supports,
+                                 const std::vector<unsigned int> &bodies)
 {
-  std::vector<bool> is_anchored(scene.n_bodies());
-  for (unsigned int body = 0; body < scene.n_bodies(); ++body)
-    is_anchored[body] = may_touch_obstacle(parameters, scene.body_names[body]);
-  for (const Support<dim> &support : scene.supports)
-    is_anchored[support.body] = true;
+  std::vector<typename SupportedDofs<dim>::Entry> entries;
+  dealii::Tensor<1, dim> centre;
+  for (const auto &entry : supports.entries())
+    if (std::find(bodies.begin(), bodies.end(), scene.supports[entry.support].body) != bodies.end())
+    {
+      entries.push_back(entry);
+      centre += entry.position;
+    }
+  if (!entries.empty())
+    centre /= entries.size();
+  double length = 1e-300;
+  for (const auto &entry : entries)
+    length = std::max(length, (entry.position - centre).norm());
+  Eigen::MatrixXd gram = Eigen::MatrixXd::Zero(n_rigid_motions(dim), n_rigid_motions(dim));
+  for (const auto &entry : entries)
+  {
+    const Eigen::VectorXd motions =
+        rigid_motions<dim>((entry.position - centre) / length, scene.supports[entry.support].component);
+    gram += motions * motions.transpose() / entries.size();
+  }
+  return gram;
+}
+
+constexpr double smallest_eigenvalue = 1e-8;
+
+bool has_full_rank(const Eigen::MatrixXd &gram)
+{
+  return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(gram).eigenvalues()[0] > smallest_eigenvalue;
+}
+
+/// Names rigid motions that supports leave free.
+template <int dim>
+std::string describe_free_motions(const Eigen::MatrixXd &gram)
+{
+  std::string shifts;
+  for (unsigned int d = 0; d < dim; ++d)
+    if (gram(d, d) < smallest_eigenvalue)
+      shifts += (shifts.empty() ? "" : ", ") + std::string(1, "xyz"[d]);
+  return shifts.empty() ? "a rotation" : "a shift along " + shifts;
+}
+
+/// Contact within a group of bodies stops no motion of them all together: their supports must.
+template <int dim>
+void check_groups(const ParameterText &text, const Parameters &parameters, const Scene<dim> &scene,
+                  const SupportedDofs<dim> &supports)
+{
   std::vector<unsigned int> unseen(scene.n_bodies());
   std::iota(unseen.rbegin(), unseen.rend(), 0u);
   while (!unseen.empty())
   {
     const std::vector<unsigned int> group = take_group(parameters, unseen);
-    if (group.size() == 1 ||
-        std::any_of(group.begin(), group.end(), [&](const unsigned int body) { return is_anchored[body]; }))
+    if (group.size() == 1 || std::any_of(group.begin(), group.end(),
+                                         [&](const unsigned int body)
+                                         { return may_touch_obstacle(parameters, scene.body_names[body]); }))
       continue;
-    throw InputError(Complaint(fmt::format("body '{}' and all that it can touch are free to move together: "
-                                           "none of them has a support or can touch an obstacle",
-                                           scene.body_names[group.front()]))
-                         .at("subsection Body " + scene.body_names[group.front()])
-                         .found(fmt::format("a group of {} bodies", group.size()))
-                         .advise("add a subsection Support to one of them, or an obstacle to lean on"));
+    const Eigen::MatrixXd gram = make_gram_matrix(scene, supports, group);
+    if (has_full_rank(gram))
+      continue;
+    const std::string &first = scene.body_names[group.front()];
+    throw InputError(
+        Complaint(fmt::format("body '{}' and all that it can touch are free to move together: their supports "
+                              "leave {} of all of them, and none can touch an obstacle",
+                              first, describe_free_motions<dim>(gram)))
+            .at(text.where("Body " + first))
+            .found(fmt::format("a group of {} bodies", group.size()))
+            .advise("add a subsection Support to one of them, or an obstacle to lean on"));
   }
 }
 } // namespace
@@ -108,53 +157,35 @@ void check_groups(const Parameters &parameters, const Scene<dim> &scene)
 template <int dim>
 std::vector<bool> find_held_bodies(const Scene<dim> &scene, const SupportedDofs<dim> &supports)
 {
-  std::vector<dealii::Tensor<1, dim>> centres(scene.n_bodies());
-  std::vector<double> lengths(scene.n_bodies(), 0.);
-  std::vector<unsigned int> counts(scene.n_bodies(), 0);
-  const auto body_of = [&](const auto &entry) { return scene.supports[entry.support].body; };
-  for (const auto &entry : supports.entries())
-  {
-    centres[body_of(entry)] += entry.position;
-    ++counts[body_of(entry)];
-  }
-  for (unsigned int body = 0; body < scene.n_bodies(); ++body)
-    if (counts[body] > 0)
-      centres[body] /= counts[body];
-  for (const auto &entry : supports.entries())
-    lengths[body_of(entry)] =
-        std::max(lengths[body_of(entry)], (entry.position - centres[body_of(entry)]).norm());
-
-  const unsigned int n = n_rigid_motions(dim);
-  std::vector<Eigen::MatrixXd> gram(scene.n_bodies(), Eigen::MatrixXd::Zero(n, n));
-  for (const auto &entry : supports.entries())
-  {
-    const unsigned int body = body_of(entry);
-    const dealii::Tensor<1, dim> arm = (entry.position - centres[body]) / std::max(lengths[body], 1e-300);
-    const Eigen::VectorXd motions = rigid_motions<dim>(arm, scene.supports[entry.support].component);
-    gram[body] += motions * motions.transpose() / counts[body];
-  }
   std::vector<bool> is_held;
-  for (const Eigen::MatrixXd &matrix : gram)
-    is_held.push_back(Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(matrix).eigenvalues()[0] > 1e-8);
+  for (unsigned int body = 0; body < scene.n_bodies(); ++body)
+    is_held.push_back(has_full_rank(make_gram_matrix(scene, supports, {body})));
   return is_held;
 }
 
 template <int dim>
-void check_held(const Parameters &parameters, const Scene<dim> &scene, const std::vector<bool> &is_held)
+void check_held(const ParameterText &text, const Parameters &parameters, const Scene<dim> &scene,
+                const SupportedDofs<dim> &supports)
 {
   for (unsigned int body = 0; body < scene.n_bodies(); ++body)
-    if (!is_held[body] && !may_touch_something(parameters, body))
+  {
+    const Eigen::MatrixXd gram = make_gram_matrix(scene, supports, {body});
+    if (!has_full_rank(gram) && !may_touch_something(parameters, body))
       throw InputError(
-          Complaint("body '" + scene.body_names[body] +
-                    "' is free to move: its supports leave a rigid motion and it can touch nothing that "
-                    "would hold it")
-              .at("subsection Body " + scene.body_names[body])
+          Complaint(
+              fmt::format("body '{}' is free to move: its supports leave {} and it can touch nothing that "
+                          "would hold it",
+                          scene.body_names[body], describe_free_motions<dim>(gram)))
+              .at(text.where("Body " + scene.body_names[body]))
               .advise("add a subsection Support, or a subsection Contact with something to lean on"));
-  check_groups(parameters, scene);
+  }
+  check_groups(text, parameters, scene, supports);
 }
 
 template std::vector<bool> find_held_bodies<2>(const Scene<2> &, const SupportedDofs<2> &);
 template std::vector<bool> find_held_bodies<3>(const Scene<3> &, const SupportedDofs<3> &);
-template void check_held<2>(const Parameters &, const Scene<2> &, const std::vector<bool> &);
-template void check_held<3>(const Parameters &, const Scene<3> &, const std::vector<bool> &);
+template void check_held<2>(const ParameterText &, const Parameters &, const Scene<2> &,
+                            const SupportedDofs<2> &);
+template void check_held<3>(const ParameterText &, const Parameters &, const Scene<3> &,
+                            const SupportedDofs<3> &);
 } // namespace signorini

@@ -7,6 +7,7 @@
 #include "signorini/physics/dead_load.h"
 #include "signorini/physics/mass.h"
 #include "signorini/simulation/held_bodies.h"
+#include "signorini/simulation/interruption.h"
 
 #include <deal.II/base/utilities.h>
 
@@ -19,9 +20,9 @@
 namespace signorini
 {
 template <int dim>
-Simulation<dim>::Simulation(const Parameters &the_parameters, const std::string &input_name,
+Simulation<dim>::Simulation(const ParameterText &parameter_text, const Parameters &the_parameters,
                             const MPI_Comm &mpi_communicator, bool is_quiet)
-    : parameters(the_parameters), input(input_name), communicator(mpi_communicator),
+    : parameters(the_parameters), text(&parameter_text), communicator(mpi_communicator),
       progress(dealii::Utilities::MPI::this_mpi_process(mpi_communicator) == 0, is_quiet),
       scene(make_scene<dim>(the_parameters))
 {
@@ -37,7 +38,7 @@ Simulation<dim>::Simulation(const Parameters &the_parameters, const std::string 
   else
   {
     is_body_held = find_held_bodies(scene, *supports);
-    check_held(parameters, scene, is_body_held);
+    check_held(*text, parameters, scene, *supports);
   }
   check_initial_overlap();
 }
@@ -96,19 +97,35 @@ void Simulation<dim>::run()
     statistics = std::make_unique<Statistics>(directory + "/statistics.csv");
   print_plan();
   measure_bodies();
+  watch_for_interruption();
+  std::optional<NumericalError> failure;
   try
   {
     if (std::holds_alternative<QuasiStaticParameters>(parameters.solver))
       run_quasi_static();
     else
       run_explicit(std::get<ExplicitParameters>(parameters.solver));
+    results.status = "ok";
   }
-  catch (const NumericalError &)
+  catch (const NumericalError &error)
   {
-    finish("failed");
-    throw;
+    failure = error;
   }
-  finish("ok");
+  gather_results();
+  finish(failure);
+}
+
+template <int dim>
+void Simulation<dim>::check_interruption(const std::function<void()> &write)
+{
+  const std::string signal = interruption(communicator);
+  if (signal.empty())
+    return;
+  write();
+  results.status = "interrupted";
+  throw NumericalError(
+      Complaint(fmt::format("the run was interrupted by {} at t = {:.6g}", signal, state.time))
+          .advise("what was written up to there is whole; run again for the rest"));
 }
 
 template <int dim>

@@ -184,8 +184,8 @@ void Simulation<dim>::check_initial_overlap()
   if (!parameters.contact->allow_initial_overlap)
     throw InputError(Complaint(fmt::format("{} overlaps {} before the run begins", search.name(overlap->body),
                                            search.name(overlap->other)))
-                         .at(where)
-                         .found(depth + " below its surface")
+                         .at(text->where("Body " + scene.body_names[overlap->body]))
+                         .found(depth + " below its surface at " + where)
                          .expected(fmt::format("at most {} elements", allowed))
                          .advise(fmt::format(
                              "shift {} by {}, exclude the pair, or set Contact/Allow initial overlap = true",

@@ -26,6 +26,7 @@ void Simulation<dim>::run_explicit(const ExplicitParameters &solver_parameters)
   write_fields();
   // Rows and fields are written by the first step that reaches their time: outputs do not shape the steps.
   unsigned int row = 1, field = 1;
+  double time_of_fields = 0.;
   while (state.time < end)
   {
     const double remaining = end - state.time, stable = solver.stable_step();
@@ -55,8 +56,19 @@ void Simulation<dim>::run_explicit(const ExplicitParameters &solver_parameters)
     {
       estimate_error();
       write_fields();
+      time_of_fields = state.time;
       field = 1 + static_cast<unsigned int>(std::floor(state.time / end * n_fields));
     }
+    if (state.time < end)
+      check_interruption(
+          [&]()
+          {
+            solver.take_stock(state);
+            if (results.history.back().time < state.time)
+              record_explicit(solver, time_step, end);
+            if (time_of_fields < state.time)
+              write_fields();
+          });
   }
 }
 
@@ -111,8 +123,29 @@ void Simulation<dim>::record_explicit(const ExplicitSolver<dim> &solver, double 
 }
 
 template <int dim>
+void Simulation<dim>::check_start(const typename SupportedDofs<dim>::Entry &entry) const
+{
+  constexpr double round_off = 1e-12;
+  const double end_time = std::get<ExplicitParameters>(parameters.solver).end_time;
+  const double start = supports->value(entry, 0.);
+  if (std::abs(start) <= round_off * std::abs(supports->value(entry, end_time)))
+    return;
+  const Support<dim> &support = scene.supports[entry.support];
+  throw InputError(
+      Complaint(fmt::format("the displacement of a support starts at {:.6g} m, not 0: an explicit "
+                            "run would begin with a shock",
+                            start))
+          .at(support.description)
+          .found(support.displacement.formula())
+          .expected("0 at t = 0")
+          .advise("let it grow with t, or move the body by Placement/Shift"));
+}
+
+template <int dim>
 void Simulation<dim>::set_initial_motion()
 {
+  for (const auto &entry : supports->entries())
+    check_start(entry);
   state.velocity = discretization->make_vector();
   const Vector mass = make_lumped_mass(scene.materials, *discretization);
   std::vector<double> sums((dim + 1) * scene.n_bodies(), 0.);

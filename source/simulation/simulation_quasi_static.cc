@@ -79,6 +79,7 @@ void Simulation<dim>::run_quasi_static()
   write_fields();
   while (state.time < end * (1. - 1e-12))
   {
+    check_interruption([]() {});
     const double time = end - state.time < step * (1. + 1e-9) ? end : state.time + step;
     if (const std::optional<Complaint> fault = solve_load_step(time))
     {

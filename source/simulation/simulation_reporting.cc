@@ -17,24 +17,6 @@
 
 namespace signorini
 {
-namespace
-{
-/// What the exception says that is being handled; nothing where none is.
-std::string reason_of_failure()
-{
-  try
-  {
-    if (std::current_exception())
-      throw;
-  }
-  catch (const ProgramError &error)
-  {
-    return error.complaint().text();
-  }
-  return "";
-}
-} // namespace
-
 template <int dim>
 void Simulation<dim>::print_plan()
 {
@@ -61,12 +43,13 @@ void Simulation<dim>::print_plan()
     solver.start(trial);
     const double step = solver.stable_step();
     const double n_steps = std::ceil(explicit_parameters.end_time / step);
-    progress.say(fmt::format("Explicit: first time step {:.4g} s, about {:.0f} steps to {} s", step, n_steps,
-                             explicit_parameters.end_time));
+    progress.say(fmt::format(n_steps > 1e7 ? "Explicit: first time step {:.4g} s, about {:.1e} steps to {} s"
+                                           : "Explicit: first time step {:.4g} s, about {:.0f} steps to {} s",
+                             step, n_steps, explicit_parameters.end_time));
     if (n_steps > 1e7)
-      progress.say(fmt::format("Warning: {:.1e} steps will hardly come to an end; shorten Explicit/End time, "
-                               "coarsen the smallest cells, or run Quasi-static",
-                               n_steps));
+      warn(fmt::format("{:.1e} steps will hardly come to an end; shorten Explicit/End time, "
+                       "coarsen the smallest cells, or run Quasi-static",
+                       n_steps));
   }
   progress.say(fmt::format("Memory after set-up: {:.0f} MB on all ranks", memory_mb()));
 }
@@ -169,10 +152,15 @@ void Simulation<dim>::gather_extremes()
 }
 
 template <int dim>
-void Simulation<dim>::finish(const std::string &status)
+void Simulation<dim>::warn(const std::string &warning)
 {
-  results.status = status;
-  results.reason = reason_of_failure();
+  results.warnings.push_back(warning);
+  progress.say("Warning: " + warning);
+}
+
+template <int dim>
+void Simulation<dim>::gather_results()
+{
   results.memory_peak_mb = memory_mb();
   gather_samples();
   gather_nodal_pressures();
@@ -181,18 +169,41 @@ void Simulation<dim>::finish(const std::string &status)
     results.displacement_error =
         measure_displacement_error(*discretization, scene.materials, state.displacement,
                                    parameters.exact_solution->displacement, state.time);
-  if (status == "ok")
-    results.errors = compute_errors(results);
+  constexpr double shallow = 0.1;
+  if (results.max_penetration_over_thickness > shallow)
+    warn(fmt::format("the largest penetration of the run, {:.3g} h, exceeds {} h: raise Contact/Penalty "
+                     "factor or refine",
+                     results.max_penetration_over_thickness, shallow));
+}
+
+template <int dim>
+void Simulation<dim>::finish(std::optional<NumericalError> failure)
+{
+  try
+  {
+    if (!failure)
+      results.errors = compute_errors(results);
+  }
+  catch (const NumericalError &error)
+  {
+    failure = error;
+  }
+  if (failure && results.status != "interrupted")
+    results.status = "failed";
+  if (failure)
+    results.reason = failure->complaint().text();
   results.run_time = run_time.sections();
   results.total_run_time = run_time.total();
   if (dealii::Utilities::MPI::this_mpi_process(communicator) == 0)
   {
     const unsigned int n_ranks = dealii::Utilities::MPI::n_mpi_processes(communicator);
-    write_summary(results, input, n_ranks, parameters.output.directory);
-    if (status == "ok")
+    write_summary(results, text->file, n_ranks, parameters.output.directory);
+    if (!failure)
       write_profile(results, parameters.output.directory);
   }
   print_results();
+  if (failure)
+    throw NumericalError(*failure);
 }
 
 template <int dim>

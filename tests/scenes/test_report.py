@@ -11,6 +11,7 @@ import unittest
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 SUMMARY = {
     "program": "signorini", "status": "failed", "reason": "no equilibrium beyond load parameter 0.5", "input": "a_b.prm",
+    "warnings": ["the largest penetration of the run, 0.2 h"],
     "contact": {"max_pressure": 17.0, "touching": True, "peak": {"max_pressure": 4321.0},
                 "resultant": [{"name": "a from b", "on": "a", "from": "b", "force": [0.0, -2.5]}]},
     "supports": [{"name": "y on a at bottom", "force": 2.5}],
@@ -36,9 +37,14 @@ class ReportTest(unittest.TestCase):
     def test_the_page_says_what_the_summary_says(self):
         self.assertEqual(self.report().returncode, 0)
         page = (self.path / "report.html").read_text(encoding="utf-8")
-        for words in ("failed", SUMMARY["reason"], "4321", "per undeformed area", "a from b", "0, -2.5",
+        for words in ("failed", SUMMARY["reason"], SUMMARY["warnings"][0], "4321", "per undeformed area", "a from b", "0, -2.5",
                       "y on a at bottom", "the run wrote no solution.pvd"):
             self.assertIn(words, page)
+
+    def test_an_interrupted_run_has_a_page(self):
+        (self.path / "summary.json").write_text(json.dumps({**SUMMARY, "status": "interrupted"}))
+        self.assertEqual(self.report().returncode, 0)
+        self.assertIn('badge bad">interrupted', (self.path / "report.html").read_text(encoding="utf-8"))
 
     def test_curves_run_over_the_load(self):
         (self.path / "statistics.csv").write_text(STATISTICS)

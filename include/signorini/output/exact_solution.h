@@ -6,7 +6,8 @@
 namespace signorini
 {
 /// Compares a run with the exact solution that its parameters name. One function a case, in the table of the
-/// source file; formulas in doc/theory.md.
+/// source file; formulas in doc/theory.md. Throws NumericalError if there is nothing to compare: nothing
+/// touches, or a number is not finite.
 template <int dim>
 std::vector<ErrorRow> compute_errors(const Results<dim> &results);
 

@@ -66,7 +66,8 @@ struct Results
 {
   const Parameters *parameters = nullptr;
   std::string status = "running";
-  std::string reason; ///< of a failure
+  std::string reason; ///< of a failure or an interruption
+  std::vector<std::string> warnings;
   std::vector<std::string> parts_built;
   std::vector<LeftOutPart> parts_left_out;
   unsigned int n_dofs = 0, n_cells = 0, n_steps = 0, n_iterations = 0;

@@ -12,7 +12,7 @@ struct ParameterEntry
   std::string path; ///< names of the enclosing subsections joined by '/'; empty at the top level
   std::string key;
   std::string value;
-  std::string file; ///< or "--set" for an override on the command line
+  std::string file; ///< or, for an override on the command line, its quotation
   int line = 0;     ///< 0 for an override
 
   std::string where() const; ///< `file:line`, or the override
@@ -61,7 +61,7 @@ std::string display_name(const std::string &file);
 /// The syntax is that of dealii::ParameterHandler: `subsection NAME`, `set KEY = VALUE`, `end`, `include
 /// FILE` (relative to the including file), `#` starts a comment, a backslash at the end of a line continues
 /// it. Throws InputError for a duplicate key or subsection, an empty file, unbalanced subsections, any other
-/// line, and a missing or circular include; FileError if the file itself cannot be read.
+/// line, and a missing or circular include; as read_input_file() if the file itself cannot be read.
 ParameterText read_parameter_text(const std::string &file);
 
 /// The same for text in memory; `file` is its name in messages.

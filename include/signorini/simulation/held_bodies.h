@@ -2,6 +2,7 @@
 #pragma once
 
 #include "signorini/discretization/supports.h"
+#include "signorini/parameters/parameter_text.h"
 
 #include <vector>
 
@@ -12,8 +13,10 @@ namespace signorini
 template <int dim>
 std::vector<bool> find_held_bodies(const Scene<dim> &scene, const SupportedDofs<dim> &supports);
 
-/// Throws InputError for a body that neither supports nor possible contact hold, and for bodies that can
-/// touch each other only and have no support.
+/// Throws InputError, with the place in `text`, for a body that neither supports nor possible contact hold,
+/// and for bodies that can touch each other only and whose supports leave a rigid motion of them all
+/// together.
 template <int dim>
-void check_held(const Parameters &parameters, const Scene<dim> &scene, const std::vector<bool> &is_held);
+void check_held(const ParameterText &text, const Parameters &parameters, const Scene<dim> &scene,
+                const SupportedDofs<dim> &supports);
 } // namespace signorini

@@ -2,16 +2,19 @@
 #pragma once
 
 #include "signorini/adaptivity/error_estimator.h"
+#include "signorini/base/exceptions.h"
 #include "signorini/base/run_time.h"
 #include "signorini/discretization/supports.h"
 #include "signorini/discretization/surface_map.h"
 #include "signorini/output/fields.h"
 #include "signorini/output/results.h"
 #include "signorini/output/statistics.h"
+#include "signorini/parameters/parameter_text.h"
 #include "signorini/simulation/progress.h"
 #include "signorini/solvers/explicit_solver.h"
 #include "signorini/solvers/quasi_static_solver.h"
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -24,15 +27,16 @@ template <int dim>
 class Simulation
 {
 public:
-  /// `input`: name of the parameter file, for reports. Throws InputError for scenes that cannot be run.
-  Simulation(const Parameters &parameters, const std::string &input, const MPI_Comm &communicator,
+  /// `text`: where the parameters stand, for messages and reports; must outlive this object. Throws
+  /// InputError for scenes that cannot be run.
+  Simulation(const ParameterText &text, const Parameters &parameters, const MPI_Comm &communicator,
              bool is_quiet);
 
   /// What would be done, at what size and cost.
   void print_plan();
 
-  /// Runs, writing into Output/Directory. Throws NumericalError, after the last good output is written, and
-  /// FileError.
+  /// Runs, writing into Output/Directory. Throws NumericalError, also for a run that is interrupted, after
+  /// the last good output is written, and FileError.
   void run();
 
 private:
@@ -66,13 +70,19 @@ private:
   void record_support_forces(const Vector &reactions);
   void record_state();
   void set_initial_motion();
+  void check_start(const typename SupportedDofs<dim>::Entry &entry) const;
   void measure_bodies();
   void estimate_error();
   void write_fields();
   void append_contact(Statistics::Row &row) const;
   void append_resultants(Statistics::Row &row) const;
   void append_bodies(Statistics::Row &row) const;
-  void finish(const std::string &status);
+  /// Once a signal has come: writes what is still to be written and throws NumericalError.
+  void check_interruption(const std::function<void()> &write);
+  void warn(const std::string &warning);
+  /// Reports, and throws the failure, or what the comparison with the exact solution finds.
+  void finish(std::optional<NumericalError> failure);
+  void gather_results();
   void gather_samples();
   void gather_nodal_pressures();
   void gather_extremes();
@@ -80,7 +90,7 @@ private:
   double memory_mb() const;
 
   Parameters parameters;
-  std::string input;
+  const ParameterText *text;
   MPI_Comm communicator;
   Progress progress;
   RunTime run_time;

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "signorini/output/exact_solution.h"
 
+#include "signorini/base/exceptions.h"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <string>
 
 using namespace signorini;
 
@@ -66,5 +69,28 @@ TEST(Hertz, TakesTheBodiesThatTouch)
   EXPECT_NEAR(peak_pressure<3>(parameters), on_obstacle / std::cbrt(4.), 1e-14);
   parameters.exact_solution->name = "Hertz cylinder";
   EXPECT_NEAR(peak_pressure<2>(parameters), std::sqrt(1. / std::acos(-1.)), 1e-14); // p₀² = P E*/(πR)
+}
+
+TEST(ExactSolution, IsNotComparedWithWhereNothingTouches)
+{
+  Parameters parameters;
+  parameters.exact_solution =
+      ExactSolutionParameters{"Hertz sphere", {{"Radius", 1.}, {"Fraction of the contact", 1.}}};
+  Results<3> results;
+  results.parameters = &parameters;
+  results.contact.resultants.push_back({0., 0., 1.});
+  try
+  {
+    compute_errors(results);
+    FAIL() << "an error was computed of nothing";
+  }
+  catch (const NumericalError &error)
+  {
+    EXPECT_NE(std::string(error.what()).find("nothing touches at the end: nothing to compare with case"),
+              std::string::npos)
+        << error.what();
+  }
+  parameters.exact_solution->name = "Bounce";
+  EXPECT_THROW(compute_errors(results), NumericalError);
 }
 } // namespace

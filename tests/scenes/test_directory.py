@@ -1,0 +1,96 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Tests of what runs do to their output directory, and of runs that are stopped: test_directory.py PROGRAM."""
+import json
+import pathlib
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+PROGRAM = sys.argv.pop()
+BLOCKS = ROOT / "parameter_files/demonstration/two_blocks.prm"
+HERTZ = ROOT / "parameter_files/validation/hertz_cylinder.prm"
+ENDLESS = ["--set", "Quasi-static/Load steps=1000000", "--set", "Output/Number of fields=1"]
+
+
+class DirectoryTest(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.addCleanup(self.folder.cleanup)
+        self.path = pathlib.Path(self.folder.name) / "output"
+
+    def command(self, file, *options):
+        return [PROGRAM, str(file), "--output", str(self.path), *options]
+
+    def run_program(self, file, *options):
+        return subprocess.run(self.command(file, *options), capture_output=True, text=True, check=False)
+
+    def start_endless(self):
+        process = subprocess.Popen(self.command(BLOCKS, *ENDLESS), stdout=subprocess.DEVNULL, stderr=subprocess.PIPE,
+                                   text=True)
+        self.addCleanup(process.communicate)
+        self.addCleanup(process.kill)
+        statistics = self.path / "statistics.csv"
+        for _ in range(1000):
+            if statistics.is_file() and statistics.read_text().count("\n") > 3:
+                return process
+            time.sleep(0.01)
+        return self.fail("the run has not begun")
+
+    def summary(self):
+        return json.loads((self.path / "summary.json").read_text(encoding="utf-8"))
+
+    def test_an_interrupted_run_leaves_whole_output(self):
+        for stop in (signal.SIGINT, signal.SIGTERM):
+            process = self.start_endless()
+            process.send_signal(stop)
+            message = process.communicate(timeout=60)[1]
+            self.assertEqual(process.returncode, 1)
+            self.assertIn(f"interrupted by {stop.name}", message)
+            self.assertEqual(self.summary()["status"], "interrupted")
+            self.assertIn(f"interrupted by {stop.name}", self.summary()["reason"])
+            self.assertTrue((self.path / "solution.pvd").is_file())
+            report = subprocess.run([str(ROOT / "scripts/report"), str(self.path)], capture_output=True, check=False)
+            self.assertEqual(report.returncode, 0)
+            (self.path / "statistics.csv").unlink()
+
+    def test_two_runs_do_not_share_a_directory(self):
+        process = self.start_endless()
+        other = self.run_program(BLOCKS)
+        self.assertEqual(other.returncode, 3)
+        self.assertIn("in use by another run", other.stderr)
+        process.terminate()
+        process.communicate(timeout=60)
+        self.assertEqual(self.run_program(BLOCKS).returncode, 0)
+
+    def test_a_run_is_repeated_from_its_own_parameters(self):
+        self.assertEqual(self.run_program(BLOCKS).returncode, 0)
+        used = self.path / "parameters.prm"
+        text = "# my comment\n" + used.read_text(encoding="utf-8")
+        used.write_text(text, encoding="utf-8")
+        self.assertEqual(self.run_program(used).returncode, 0)
+        self.assertEqual(self.summary()["status"], "ok")
+        refused = self.run_program(used, "--set", "Contact/Penalty factor=20")
+        self.assertEqual(refused.returncode, 3)
+        self.assertIn("the input lies where", refused.stderr)
+        self.assertEqual(used.read_text(encoding="utf-8"), text)
+
+    def test_nothing_is_compared_where_nothing_touches(self):
+        done = self.run_program(HERTZ, "--set", "Body cylinder/Placement/Shift=0,1")
+        self.assertEqual(done.returncode, 1, done.stdout)
+        self.assertIn("nothing touches at the end: nothing to compare with case 'Hertz cylinder'", done.stderr)
+        self.assertEqual(self.summary()["status"], "failed")
+        self.assertEqual(self.summary()["errors"], [])
+
+    def test_deep_penetration_is_warned_of(self):
+        done = self.run_program(BLOCKS, "--set", "Contact/Penalty factor=0.05", "--quiet")
+        self.assertEqual((done.returncode, done.stdout, done.stderr), (0, "", ""))
+        self.assertIn("raise Contact/Penalty factor or refine", self.summary()["warnings"][0])
+
+
+if __name__ == "__main__":
+    unittest.main()
