@@ -157,6 +157,22 @@ double ErrorEstimator<dim>::squared_error(unsigned int cell, const std::vector<E
 }
 
 template <int dim>
+void ErrorEstimator<dim>::find_unseen_contact(const State &state, ErrorEstimate &result) const
+{
+  result.is_contact_unseen.assign(discretization->cells.n_cells, false);
+  bool is_any = false;
+  for (const auto &contact : forces->contacts)
+  {
+    const std::vector<unsigned int> unseen = contact->unseen_contact(state);
+    for (const BoundaryFace &face : faces)
+      if (std::binary_search(unseen.begin(), unseen.end(), face.facet))
+        is_any = result.is_contact_unseen[face.cell] = true;
+  }
+  result.is_any_contact_unseen =
+      dealii::Utilities::MPI::max(static_cast<int>(is_any), discretization->communicator()) == 1;
+}
+
+template <int dim>
 ErrorEstimate ErrorEstimator<dim>::estimate(const State &state)
 {
   const unsigned int n_cells = discretization->cells.n_cells, n_points = discretization->cells.n_points;
@@ -182,6 +198,7 @@ ErrorEstimate ErrorEstimator<dim>::estimate(const State &state)
   }
   for (const double squared : result.cell_contact)
     result.contact += squared;
+  find_unseen_contact(state, result);
   result.discretization = dealii::Utilities::MPI::sum(result.discretization, discretization->communicator());
   result.contact = dealii::Utilities::MPI::sum(result.contact, discretization->communicator());
   result.energy = 2. * forces->elasticity->energy();

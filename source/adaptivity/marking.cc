@@ -9,8 +9,16 @@ template <int dim>
 void mark_cells(const ErrorEstimate &estimate, const AdaptivityParameters &parameters,
                 Discretization<dim> &discretization)
 {
-  dealii::Vector<float> squares(discretization.mesh->n_active_cells());
   unsigned int own_cell = 0;
+  if (estimate.is_any_contact_unseen)
+  {
+    // Without contact the solution says nothing of errors yet.
+    for (const auto &cell : discretization.mesh->active_cell_iterators())
+      if (cell->is_locally_owned() && estimate.is_contact_unseen[own_cell++])
+        cell->set_refine_flag();
+    return;
+  }
+  dealii::Vector<float> squares(discretization.mesh->n_active_cells());
   for (const auto &cell : discretization.mesh->active_cell_iterators())
     if (cell->is_locally_owned())
       squares[cell->active_cell_index()] =

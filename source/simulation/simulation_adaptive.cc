@@ -22,7 +22,8 @@ void Simulation<dim>::adapt_to_load()
                     state.time, cycle, results.n_cells, results.n_dofs,
                     estimate.relative(estimate.discretization), estimate.relative(estimate.contact)));
     if (cycle == adaptivity.max_cycles || results.n_dofs >= adaptivity.max_n_dofs ||
-        estimate.discretization == 0. || estimate.relative(estimate.total()) <= adaptivity.target_error)
+        (!estimate.is_any_contact_unseen &&
+         (estimate.discretization == 0. || estimate.relative(estimate.total()) <= adaptivity.target_error)))
       return;
     adapt_mesh();
     if (const std::optional<Complaint> fault = solve_load_step(state.time))

@@ -11,6 +11,8 @@ struct ErrorEstimate
 {
   std::vector<double> cell_discretization; ///< [own cell]
   std::vector<double> cell_contact;        ///< [own cell] of its facets
+  std::vector<bool> is_contact_unseen;     ///< [own cell] it may be in contact but is too large to tell
+  bool is_any_contact_unseen = false;      ///< in any cell of any rank
   double discretization = 0.;              ///< of all cells of all ranks
   double contact = 0.;
   double energy = 0.; ///< twice the elastic energy: the square of the solution's own norm

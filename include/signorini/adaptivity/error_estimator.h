@@ -51,6 +51,7 @@ private:
                          std::vector<Eigen::Matrix3d> &nodal) const;
   SpatialVector<dim> load_traction(const BoundaryFace &face, unsigned int node, double time) const;
   FacetPressures gather_pressures() const;
+  void find_unseen_contact(const State &state, ErrorEstimate &result) const;
   double squared_error(unsigned int cell, const std::vector<Eigen::Matrix3d> &nodal,
                        const Eigen::Matrix3d *point_stresses) const;
 

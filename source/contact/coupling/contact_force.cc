@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "signorini/contact/coupling/contact_force.h"
 
+#include "signorini/contact/potential/unseen_contact.h"
+
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
@@ -167,6 +169,22 @@ void ContactForce<dim>::add_row_sum_bounds(Vector &stiffness, Vector &damping) c
   };
   spread(nodal_stiffness, stiffness);
   spread(nodal_damping, damping);
+}
+
+template <int dim>
+std::vector<unsigned int> ContactForce<dim>::unseen_contact(const State &state) const
+{
+  const ContactSurface<dim> &surface = map->surface();
+  const std::vector<bool> is_active = potential.active_facets();
+  std::vector<signed char> is_seen(surface.n_nodes(), 0);
+  for (unsigned int f = 0; f < surface.facets.size(); ++f)
+    for (unsigned int i = 0; i < surface.facets[f].n_nodes(); ++i)
+      if (is_active[f])
+        is_seen[surface.facets[f].nodes[i]] = 1;
+  MPI_Allreduce(MPI_IN_PLACE, is_seen.data(), static_cast<int>(is_seen.size()), MPI_SIGNED_CHAR, MPI_MAX,
+                communicator);
+  return contact::find_unseen_contact(surface, potential.pair_list(), positions(state),
+                                      std::vector<bool>(is_seen.begin(), is_seen.end()));
 }
 
 template <int dim>

@@ -367,6 +367,14 @@ std::vector<double> ContactPotential<dim>::facet_errors() const
 }
 
 template <int dim>
+std::vector<bool> ContactPotential<dim>::active_facets() const
+{
+  std::vector<bool> is_active(surface.facets.size(), false);
+  for_each_pair_deeper_than(0., [&](const NearPair &near) { is_active[near.pair.facet] = true; });
+  return is_active;
+}
+
+template <int dim>
 std::vector<ContactSample<dim>> ContactPotential<dim>::samples() const
 {
   std::vector<ContactSample<dim>> all;

@@ -47,6 +47,10 @@ public:
   /// [m²; m in 2-D] (collective).
   std::vector<double> nodal_areas() const;
 
+  /// This rank's facets in a contact that they are too large to see at that state, see
+  /// contact::find_unseen_contact() (collective).
+  std::vector<unsigned int> unseen_contact(const State &state) const;
+
   /// See ContactPotential::facet_errors(); non-zero for this rank's facets only.
   std::vector<double> facet_errors() const { return potential.facet_errors(); }
 

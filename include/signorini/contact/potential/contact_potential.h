@@ -90,6 +90,11 @@ public:
   /// Resultants by pair; with the damping of these velocities of the nodes, unless there are none.
   PairForces<dim> pair_forces(const std::vector<SpatialVector<dim>> &velocities) const;
 
+  /// Which owned facets have a point in contact, [facet].
+  std::vector<bool> active_facets() const;
+
+  const PairList<dim> &pair_list() const { return pairs; }
+
   /// All points in contact or less than a skin away whose facet faces the other surface.
   std::vector<ContactSample<dim>> samples() const;
 
