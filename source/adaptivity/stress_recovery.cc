@@ -45,6 +45,7 @@ template <int dim>
 StressRecovery<dim>::StressRecovery(const Discretization<dim> &the_discretization)
     : discretization(&the_discretization)
 {
+  recovered = {{discretization->make_vector(), discretization->make_vector()}};
   fit_cells();
   tabulate_shape_functions();
 }
@@ -87,7 +88,10 @@ void StressRecovery<dim>::recover(const std::vector<Eigen::Matrix3d> &point_stre
   const CellTable<dim> &cells = discretization->cells;
   Vector volumes = discretization->make_vector();
   for (Vector &values : recovered)
-    values = discretization->make_vector();
+  {
+    values.zero_out_ghost_values(); // else they would not take contributions
+    values = 0.;
+  }
   for (unsigned int cell = 0; cell < cells.n_cells; ++cell)
   {
     const double *weights = cells.cell_weights(cell);
