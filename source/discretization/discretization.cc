@@ -6,6 +6,7 @@
 #include "signorini/discretization/scene_mesh.h"
 
 #include <deal.II/base/quadrature_lib.h>
+#include <deal.II/distributed/solution_transfer.h>
 #include <deal.II/dofs/dof_renumbering.h>
 #include <deal.II/dofs/dof_tools.h>
 #include <deal.II/fe/fe_q.h>
@@ -25,11 +26,47 @@ Discretization<dim>::Discretization(const Parameters &parameters, const MPI_Comm
       element(dealii::FE_Q<dim>(parameters.degree), dim), mapping(parameters.degree), dof_handler(*mesh),
       mpi_communicator(communicator)
 {
+  set_up();
+}
+
+template <int dim>
+void Discretization<dim>::set_up()
+{
   number_dofs();
   close_mapping();
   fill_cell_table();
-  throw_together(communicator, [this]() { check_cells(); });
+  throw_together(mpi_communicator, [this]() { check_cells(); });
   collect_owned_nodes();
+}
+
+template <int dim>
+void Discretization<dim>::adapt(const std::vector<Vector *> &values)
+{
+  std::vector<Vector> old_values;
+  for (const Vector *vector : values)
+  {
+    old_values.push_back(*vector);
+    old_values.back().update_ghost_values();
+  }
+  std::vector<const Vector *> old_pointers;
+  for (const Vector &vector : old_values)
+    old_pointers.push_back(&vector);
+  dealii::parallel::distributed::SolutionTransfer<dim, Vector> transfer(dof_handler);
+  mesh->prepare_coarsening_and_refinement();
+  transfer.prepare_for_coarsening_and_refinement(old_pointers);
+  mesh->execute_coarsening_and_refinement();
+
+  hanging_dofs.clear();
+  cells = CellTable<dim>();
+  owned_nodes.clear();
+  unused_dofs.clear();
+  set_up();
+  for (Vector *vector : values)
+    *vector = make_vector();
+  std::vector<Vector *> new_values = values;
+  transfer.interpolate(new_values);
+  for (Vector *vector : values)
+    distribute(*vector);
 }
 
 template <int dim>

@@ -20,37 +20,27 @@ double von_mises(const Eigen::Matrix3d &stress)
   return std::sqrt(1.5) * deviator.norm();
 }
 
-/// The piecewise linear function that is 1 at node i of a facet and 0 at its other nodes: it is nowhere
-/// negative.
-template <int dim>
-double hat_function(const Facet<dim> &facet, unsigned int i, const LocalPoint<dim> &xi)
-{
-  double value = 1.;
-  for (int d = 0; d < dim - 1; ++d)
-  {
-    const unsigned int index = d == 0 ? i % (facet.degree + 1) : i / (facet.degree + 1);
-    value *= std::max(0., 1. - std::abs(facet.degree * xi[d] - index));
-  }
-  return value;
-}
-
 /// Cell data by name, indexed by active cell as DataOut wants them.
 template <int dim>
 std::vector<std::pair<std::string, dealii::Vector<float>>>
-make_cell_data(const Discretization<dim> &discretization, const InternalForce<dim> &elasticity)
+make_cell_data(const Discretization<dim> &discretization, const InternalForce<dim> &elasticity,
+               const ErrorEstimate &estimate)
 {
   std::vector<std::pair<std::string, dealii::Vector<float>>> data;
-  for (const char *name : {"body", "von_mises_stress", "stress_xx", "stress_yy", "stress_zz", "stress_xy",
-                           "stress_yz", "stress_xz"})
+  for (const char *name : {"body", "error_indicator", "von_mises_stress", "stress_xx", "stress_yy",
+                           "stress_zz", "stress_xy", "stress_yz", "stress_xz"})
     data.emplace_back(name, dealii::Vector<float>(discretization.mesh->n_active_cells()));
   const std::vector<Eigen::Matrix3d> stresses = elasticity.stresses();
   unsigned int own_cell = 0;
   for (const auto &cell : discretization.dof_handler.active_cell_iterators())
     if (cell->is_locally_owned())
     {
-      const Eigen::Matrix3d &s = stresses[own_cell++];
-      const std::array<double, 8> values{{static_cast<double>(cell->material_id()), von_mises(s), s(0, 0),
-                                          s(1, 1), s(2, 2), s(0, 1), s(1, 2), s(0, 2)}};
+      const Eigen::Matrix3d &s = stresses[own_cell];
+      const double error =
+          std::sqrt(estimate.cell_discretization[own_cell] + estimate.cell_contact[own_cell]);
+      ++own_cell;
+      const std::array<double, 9> values{{static_cast<double>(cell->material_id()), error, von_mises(s),
+                                          s(0, 0), s(1, 1), s(2, 2), s(0, 1), s(1, 2), s(0, 2)}};
       for (unsigned int i = 0; i < values.size(); ++i)
         data[i].second[cell->active_cell_index()] = static_cast<float>(values[i]);
     }
@@ -59,10 +49,15 @@ make_cell_data(const Discretization<dim> &discretization, const InternalForce<di
 } // namespace
 
 template <int dim>
-Fields<dim>::Fields(const Discretization<dim> &the_discretization, const SurfaceMap<dim> *surface_map,
-                    std::string output_directory)
-    : discretization(&the_discretization), map(surface_map), directory(std::move(output_directory))
+Fields<dim>::Fields(std::string output_directory) : directory(std::move(output_directory))
 {
+}
+
+template <int dim>
+void Fields<dim>::set_mesh(const Discretization<dim> &the_discretization, const SurfaceMap<dim> *surface_map)
+{
+  discretization = &the_discretization;
+  map = surface_map;
   if (map)
     number_contact_fields();
 }
@@ -117,7 +112,7 @@ std::pair<Vector, Vector> Fields<dim>::project_contact(const SceneForces<dim> &f
       const Facet<dim> &facet = surface.facets[sample.facet];
       for (unsigned int i = 0; i < facet.n_nodes(); ++i)
       {
-        const double weight = sample.area * hat_function(facet, i, sample.xi);
+        const double weight = sample.area * contact::evaluate_hat_function(facet, i, sample.xi);
         areas[facet.nodes[i]] += weight;
         gaps[facet.nodes[i]] += weight * std::min(-sample.depth, facet.layer_thickness);
       }
@@ -145,7 +140,7 @@ std::pair<Vector, Vector> Fields<dim>::project_contact(const SceneForces<dim> &f
 }
 
 template <int dim>
-void Fields<dim>::write(const State &state, const SceneForces<dim> &forces)
+void Fields<dim>::write(const State &state, const SceneForces<dim> &forces, const ErrorEstimate &estimate)
 {
   dealii::DataOut<dim> data_out;
   dealii::DataOutBase::VtkFlags flags;
@@ -166,7 +161,7 @@ void Fields<dim>::write(const State &state, const SceneForces<dim> &forces)
     data_out.add_data_vector(contact->dof_handler, contact_data.first, "contact_pressure");
     data_out.add_data_vector(contact->dof_handler, contact_data.second, "gap");
   }
-  const auto cell_data = make_cell_data(*discretization, *forces.elasticity);
+  const auto cell_data = make_cell_data(*discretization, *forces.elasticity, estimate);
   for (const auto &[name, values] : cell_data)
     data_out.add_data_vector(values, name, dealii::DataOut<dim>::type_cell_data);
   data_out.build_patches(discretization->mapping, discretization->element.degree);

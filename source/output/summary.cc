@@ -91,6 +91,14 @@ Json describe_energy(const Results<dim> &results)
           {"max_ledger_residual", results.max_ledger_residual}};
 }
 
+Json describe_estimate(const ErrorEstimate &estimate)
+{
+  return {{"discretization", estimate.relative(estimate.discretization)},
+          {"contact", estimate.relative(estimate.contact)},
+          {"total", estimate.relative(estimate.total())},
+          {"energy_norm", std::sqrt(estimate.energy)}};
+}
+
 template <int dim>
 Json describe_errors(const Results<dim> &results)
 {
@@ -123,6 +131,7 @@ void write_summary(const Results<dim> &results, const std::string &input, unsign
   if (!results.support_forces.empty())
     summary["supports"] = describe_supports(results);
   summary["energy"] = describe_energy(results);
+  summary["estimate"] = describe_estimate(results.estimate);
   if (results.has_ledger)
     summary["momentum"] = {{"linear_drift", results.max_linear_drift},
                            {"angular_drift", results.max_angular_drift}};

@@ -167,20 +167,10 @@ SupportParameters read_support(const SectionReader &section, const std::string &
   return support;
 }
 
-LoadParameters read_load(const SectionReader &section, const std::string &boundary,
-                         const unsigned int dimension)
+LoadParameters read_load(const SectionReader &section, const std::string &boundary)
 {
   LoadParameters load{boundary, {{"0", "0", "0"}}, section.place("Traction")};
-  const std::vector<std::string> parts = split(section.value("Traction"), ';');
-  const bool complete =
-      std::none_of(parts.begin(), parts.end(), [](const auto &part) { return part.empty(); });
-  if (parts.size() != dimension || !complete)
-    throw InputError(
-        section
-            .complain("Traction",
-                      fmt::format("a traction needs {} formulas, not {}", dimension, parts.size()))
-            .expected(fmt::format("{} formulas separated by ';'", dimension))
-            .advise(dimension == 3 ? "write for example 0; 0; -1e6*t" : "write for example 0; -1e6*t"));
+  const std::vector<std::string> parts = section.formulas("Traction");
   std::copy(parts.begin(), parts.end(), load.traction.begin());
   return load;
 }
@@ -269,10 +259,11 @@ BodyParameters read_body(const ParameterText &text, const Declarations &in_use, 
   const auto read_each = [&](const std::string &prefix, const auto &read_entry, auto &entries)
   {
     for (const std::string &entry : text.names_below(path, prefix))
-      entries.push_back(
-          read_entry(section(entry), read_boundary(section(entry), prefix, body, dimension), dimension));
+      entries.push_back(read_entry(section(entry), read_boundary(section(entry), prefix, body, dimension)));
   };
-  read_each("Support ", read_support, body.supports);
+  const auto read_one_support = [&](const SectionReader &section_of, const std::string &boundary)
+  { return read_support(section_of, boundary, dimension); };
+  read_each("Support ", read_one_support, body.supports);
   read_each("Load ", read_load, body.loads);
   check_loads(body, dimension);
   return body;

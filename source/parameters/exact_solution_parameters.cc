@@ -2,6 +2,7 @@
 #include "signorini/parameters/exact_solution_parameters.h"
 
 #include "signorini/base/exceptions.h"
+#include "signorini/parameters/expression.h"
 #include "signorini/parameters/scene_needs.h"
 #include "signorini/parameters/section_reader.h"
 #include "signorini/parameters/strings.h"
@@ -29,6 +30,8 @@ struct ExactSolutionCase
   std::vector<ExactSolutionKey> keys;
   std::vector<SceneNeed> needs;
 };
+
+constexpr const char *displacement_key = "Displacement";
 
 const std::vector<ExactSolutionCase> &exact_solutions()
 {
@@ -62,7 +65,8 @@ const std::vector<ExactSolutionCase> &exact_solutions()
       {"Bounce",
        {},
        {explicit_run(), number_of_bodies(1), boxes_only(), number_of_obstacles(1), planes_only(),
-        contact_damping(), no_grading()}}};
+        contact_damping(), no_grading()}},
+      {"Displacement", {}, {quasi_static_run(), linear_elastic_bodies()}}};
   return table;
 }
 
@@ -101,6 +105,11 @@ void declare_exact_solution(Declarations &declarations, const DeclarationScope &
   for (const ExactSolutionCase &entry : exact_solutions())
     needs += fmt::format(" {} needs {}.", entry.name, list_needs(entry));
   section.add_required("Case", one_of(exact_solution_names()), "", "Name of the exact solution." + needs);
+  if (scope.chosen(path, "Case", "Displacement", ""))
+    section.add_required(
+        displacement_key, any_text(), "m",
+        "Displacement: the exact one of all bodies, a formula of x, y, z, t for each component, "
+        "separated by ';'.");
   for (const ExactSolutionCase &entry : exact_solutions())
     for (const ExactSolutionKey &key : entry.keys)
     {
@@ -113,13 +122,25 @@ void declare_exact_solution(Declarations &declarations, const DeclarationScope &
     }
 }
 
-ExactSolutionParameters read_exact_solution(const ParameterText &text, const Declarations &in_use)
+ExactSolutionParameters read_exact_solution(const ParameterText &text, const Declarations &in_use,
+                                            unsigned int dimension)
 {
-  const SectionReader section(text, in_use, "Exact solution", 3);
+  const SectionReader section(text, in_use, "Exact solution", dimension);
   ExactSolutionParameters exact;
   exact.name = section.value("Case");
   for (const ExactSolutionKey &key : find_case(exact.name)->keys)
     exact.values[key.key] = section.number(key.key);
+  if (exact.name == "Displacement")
+    exact.displacement = section.formulas(displacement_key);
+  for (const std::string &formula : exact.displacement)
+    try
+    {
+      Expression{formula};
+    }
+    catch (const InputError &error)
+    {
+      throw InputError(Complaint(error.complaint()).at(section.place(displacement_key)).found(formula));
+    }
   return exact;
 }
 

@@ -135,6 +135,11 @@ void check_together(const ParameterText &text, const Parameters &parameters)
   std::visit([&end_time](const auto &run) { end_time = run.end_time; }, parameters.solver);
   if (std::holds_alternative<QuasiStaticParameters>(parameters.solver))
     check_quasi_static(text, parameters);
+  else if (parameters.adaptivity)
+    throw InputError(Complaint("'Adaptivity' refines the meshes of quasi-static runs only")
+                         .at(text.where("Adaptivity"))
+                         .found("'Explicit' stands at " + text.where("Explicit"))
+                         .advise("remove the subsection, or run 'Quasi-static'"));
   check_densities(text, parameters);
   for (const BodyParameters &body : parameters.bodies)
     check_expressions(text, body, parameters.dimension, end_time);
@@ -154,6 +159,7 @@ Declarations declare_parameters(const ParameterText &text, const Extent extent)
   if (scope.includes("Contact"))
     declare_contact(declarations, scope);
   declare_solver(declarations, scope);
+  declare_adaptivity(declarations, scope);
   declare_exact_solution(declarations, scope);
   declare_output(declarations, scope);
   return declarations;
@@ -182,8 +188,10 @@ Parameters read_parameters(const ParameterText &text)
     parameters.obstacles.push_back(read_obstacle(text, in_use, obstacle, dimension));
   if (text.find_subsection("Contact") != nullptr)
     parameters.contact = read_contact(text, in_use, bodies, obstacles);
+  if (text.find_subsection("Adaptivity") != nullptr)
+    parameters.adaptivity = read_adaptivity(text, in_use);
   if (text.find_subsection("Exact solution") != nullptr)
-    parameters.exact_solution = read_exact_solution(text, in_use);
+    parameters.exact_solution = read_exact_solution(text, in_use, parameters.dimension);
   parameters.output = read_output(text, in_use);
   check_together(text, parameters);
   check_output_directory(parameters.output.directory, text.where("Output", "Directory"));

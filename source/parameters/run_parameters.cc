@@ -65,6 +65,31 @@ const std::vector<RunEntry<ExplicitParameters>> &explicit_entries()
   return entries;
 }
 
+const std::vector<RunEntry<AdaptivityParameters>> &adaptivity_entries()
+{
+  using Run = AdaptivityParameters;
+  static const std::vector<RunEntry<Run>> entries{
+      {"Maximum cycles", integer_from(1, 100), "8", "",
+       "How often in one load step the mesh is refined where the estimated error is large, and the "
+       "equilibrium "
+       "found anew.",
+       &Run::max_cycles},
+      {"Refine share", number_above_up_to(0., 1.), "0.5", "",
+       "The cells with the largest errors are refined, so many that they hold this share of the squared "
+       "error.",
+       &Run::refine_share},
+      {"Coarsen share", number_from(0.), "0.01", "",
+       "The cells with the smallest errors, so many that they hold this share, are made coarser again, but "
+       "never than the mesh of the file.",
+       &Run::coarsen_share},
+      {"Target error", number_from(0.), "0", "",
+       "Refining ends when the estimated relative error in the energy norm is below; 0: after the cycles.",
+       &Run::target_error},
+      {"Maximum dofs", integer_from(1, 1000000000), "10000000", "",
+       "Refining ends when the mesh has so many degrees of freedom.", &Run::max_n_dofs}};
+  return entries;
+}
+
 template <typename Run>
 void declare_entries(const std::vector<RunEntry<Run>> &entries, SubsectionDeclaration &section)
 {
@@ -113,6 +138,27 @@ ExplicitParameters read_explicit(const SectionReader &section)
   return run;
 }
 } // namespace
+
+void declare_adaptivity(Declarations &declarations, const DeclarationScope &scope)
+{
+  if (!scope.includes("Adaptivity"))
+    return;
+  SubsectionDeclaration section(
+      declarations, "Adaptivity",
+      "Refinement of the mesh where the estimated error is large; needs 'Quasi-static'.");
+  declare_entries(adaptivity_entries(), section);
+}
+
+AdaptivityParameters read_adaptivity(const ParameterText &text, const Declarations &in_use)
+{
+  AdaptivityParameters adaptivity;
+  const SectionReader section(text, in_use, "Adaptivity", 3);
+  read_entries(adaptivity_entries(), section, adaptivity);
+  if (adaptivity.refine_share + adaptivity.coarsen_share > 1.)
+    throw InputError(section.complain("Coarsen share", "some cells would have to become finer and coarser")
+                         .expected("at most 1 together with 'Refine share'"));
+  return adaptivity;
+}
 
 void declare_solver(Declarations &declarations, const DeclarationScope &scope)
 {

@@ -263,6 +263,18 @@ SceneNeed boxes_only()
       });
 }
 
+SceneNeed linear_elastic_bodies()
+{
+  return every_body(
+      "linear elastic bodies",
+      [](const ParameterText &text, const std::string &path, const BodyParameters &body) -> MaybeFault
+      {
+        if (body.material.model == MaterialParameters::Model::linear_elastic)
+          return {};
+        return fault_of_entry(text, path + "/Material", "Model", "linear elastic");
+      });
+}
+
 SceneNeed shifts_only()
 {
   return every_body(

@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace signorini
 {
 SectionReader::SectionReader(const ParameterText &parameter_text, const Declarations &declarations,
@@ -60,6 +62,19 @@ Triple SectionReader::vector(const std::string &key) const
             .expected("2 or 3 numbers separated by commas, the third 0")
             .advise("the second component is the vertical one, or set Dimension = 3"));
   return result;
+}
+
+std::vector<std::string> SectionReader::formulas(const std::string &key) const
+{
+  const std::vector<std::string> parts = split(value(key), ';');
+  const bool complete =
+      std::none_of(parts.begin(), parts.end(), [](const auto &part) { return part.empty(); });
+  if (parts.size() != dimension || !complete)
+    throw InputError(
+        complain(key, fmt::format("'{}' needs {} formulas, not {}", key, dimension, parts.size()))
+            .expected(fmt::format("{} formulas separated by ';'", dimension))
+            .advise(dimension == 3 ? "write for example 0; 0; -1e6*t" : "write for example 0; -1e6*t"));
+  return parts;
 }
 
 std::string SectionReader::place(const std::string &key) const

@@ -134,13 +134,12 @@ Eigen::Matrix<double, dim, dim> CellKernel<dim, Law>::mean_stretch(const CellGeo
 }
 
 template <int dim, typename Law>
-Eigen::Matrix3d CellKernel<dim, Law>::mean_stress(const CellGeometry &cell, const double *u)
+void CellKernel<dim, Law>::compute_stresses(const CellGeometry &cell, const double *u,
+                                            Eigen::Matrix3d *stresses)
 {
   evaluate_volume(cell, u, Order::first);
-  Eigen::Matrix3d mean = Eigen::Matrix3d::Zero();
   for (unsigned int q = 0; q < cell.n_points; ++q)
-    mean += cell.weights[q] / cell_volume * law.cauchy_stress(gradients[q], volumes[q].pressure);
-  return mean;
+    stresses[q] = law.cauchy_stress(gradients[q], volumes[q].pressure);
 }
 
 template class CellKernel<2, LinearElastic<2>>;

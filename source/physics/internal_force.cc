@@ -4,6 +4,7 @@
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
+#include <numeric>
 
 namespace signorini
 {
@@ -143,6 +144,16 @@ void InternalForce<dim>::add_magnitudes(Vector &magnitudes) const
 }
 
 template <int dim>
+std::vector<Eigen::Matrix3d> InternalForce<dim>::point_stresses() const
+{
+  const unsigned int n_points = discretization->cells.n_points;
+  std::vector<Eigen::Matrix3d> all(discretization->cells.n_cells * n_points);
+  for_each_cell([&](auto &kernel, unsigned int cell, const CellGeometry &geometry, const double *u)
+                { kernel.compute_stresses(geometry, u, &all[cell * n_points]); });
+  return all;
+}
+
+template <int dim>
 bool InternalForce<dim>::is_nonlinear() const
 {
   return std::any_of(kernels.begin(), kernels.end(),
@@ -162,10 +173,17 @@ std::vector<SpatialTensor<dim>> InternalForce<dim>::stretches() const
 template <int dim>
 std::vector<Eigen::Matrix3d> InternalForce<dim>::stresses() const
 {
-  std::vector<Eigen::Matrix3d> all;
-  for_each_cell([&](auto &kernel, unsigned int, const CellGeometry &geometry, const double *u)
-                { all.push_back(kernel.mean_stress(geometry, u)); });
-  return all;
+  const CellTable<dim> &cells = discretization->cells;
+  const std::vector<Eigen::Matrix3d> at_points = point_stresses();
+  std::vector<Eigen::Matrix3d> means(cells.n_cells, Eigen::Matrix3d::Zero());
+  for (unsigned int cell = 0; cell < cells.n_cells; ++cell)
+  {
+    const double *weights = cells.cell_weights(cell);
+    for (unsigned int q = 0; q < cells.n_points; ++q)
+      means[cell] += weights[q] * at_points[cell * cells.n_points + q];
+    means[cell] /= std::accumulate(weights, weights + cells.n_points, 0.);
+  }
+  return means;
 }
 
 template class InternalForce<2>;

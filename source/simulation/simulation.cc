@@ -29,13 +29,7 @@ Simulation<dim>::Simulation(const ParameterText &parameter_text, const Parameter
   const auto section = run_time.enter("set-up");
   results.parameters = &parameters;
   discretization = std::make_unique<Discretization<dim>>(parameters, communicator);
-  const double end_time = std::visit([](const auto &solver) { return solver.end_time; }, parameters.solver);
-  supports = std::make_unique<SupportedDofs<dim>>(scene, *discretization, end_time);
-  forces.elasticity = std::make_shared<InternalForce<dim>>(scene.materials, *discretization);
-  if (!scene.loads.empty() || scene.gravity.norm() > 0.)
-    forces.loads.push_back(std::make_shared<DeadLoad<dim>>(scene, *discretization));
-  if (parameters.contact)
-    build_contact();
+  build_on_mesh();
   list_parts();
 
   state.displacement = discretization->make_vector();
@@ -46,9 +40,23 @@ Simulation<dim>::Simulation(const ParameterText &parameter_text, const Parameter
     is_body_held = find_held_bodies(scene, *supports);
     check_held(*text, parameters, scene, *supports);
   }
+  check_initial_overlap();
+}
+
+template <int dim>
+void Simulation<dim>::build_on_mesh()
+{
+  const double end_time = std::visit([](const auto &solver) { return solver.end_time; }, parameters.solver);
+  supports = std::make_unique<SupportedDofs<dim>>(scene, *discretization, end_time);
+  forces = SceneForces<dim>();
+  forces.elasticity = std::make_shared<InternalForce<dim>>(scene.materials, *discretization);
+  if (!scene.loads.empty() || scene.gravity.norm() > 0.)
+    forces.loads.push_back(std::make_shared<DeadLoad<dim>>(scene, *discretization));
+  if (parameters.contact)
+    build_contact();
+  estimator = std::make_unique<ErrorEstimator<dim>>(*discretization, scene, forces, surface_map.get());
   results.n_dofs = discretization->n_dofs();
   results.n_cells = discretization->mesh->n_global_active_cells();
-  check_initial_overlap();
 }
 
 template <int dim>
@@ -73,6 +81,8 @@ void Simulation<dim>::list_parts()
   note(!is_explicit, "quasi-static solver", "the run is explicit");
   note(is_explicit, "explicit solver", "the run is quasi-static");
   note(is_explicit, "mass and ledgers of energy and momentum", "the run is quasi-static");
+  note(true, "error estimate", "");
+  note(parameters.adaptivity.has_value(), "adaptive refinement", "no subsection Adaptivity");
   note(parameters.exact_solution.has_value(), "exact solution", "no subsection Exact solution");
 }
 
@@ -80,7 +90,8 @@ template <int dim>
 void Simulation<dim>::run()
 {
   const std::string &directory = parameters.output.directory;
-  fields = std::make_unique<Fields<dim>>(*discretization, surface_map.get(), directory);
+  fields = std::make_unique<Fields<dim>>(directory);
+  fields->set_mesh(*discretization, surface_map.get());
   progress.open_log(directory);
   if (dealii::Utilities::MPI::this_mpi_process(communicator) == 0)
     statistics = std::make_unique<Statistics>(directory + "/statistics.csv");
@@ -90,8 +101,8 @@ void Simulation<dim>::run()
   std::optional<NumericalError> failure;
   try
   {
-    if (const auto *quasi_static = std::get_if<QuasiStaticParameters>(&parameters.solver))
-      run_quasi_static(*quasi_static);
+    if (std::holds_alternative<QuasiStaticParameters>(parameters.solver))
+      run_quasi_static();
     else
       run_explicit(std::get<ExplicitParameters>(parameters.solver));
     results.status = "ok";
@@ -118,10 +129,17 @@ void Simulation<dim>::check_interruption(const std::function<void()> &write)
 }
 
 template <int dim>
+void Simulation<dim>::estimate_error()
+{
+  const auto section = run_time.enter("error estimate");
+  results.estimate = estimator->estimate(state);
+}
+
+template <int dim>
 void Simulation<dim>::write_fields()
 {
   const auto section = run_time.enter("output");
-  fields->write(state, forces);
+  fields->write(state, forces, results.estimate);
 }
 
 template class Simulation<2>;

@@ -22,6 +22,7 @@ void Simulation<dim>::run_explicit(const ExplicitParameters &solver_parameters)
   const unsigned int n_rows = std::max(1u, parameters.output.n_statistics);
   const unsigned int n_fields = std::max(1u, parameters.output.n_fields);
   record_explicit(solver, 0., end);
+  estimate_error();
   write_fields();
   // Rows and fields are written by the first step that reaches their time: outputs do not shape the steps.
   unsigned int row = 1, field = 1;
@@ -53,6 +54,7 @@ void Simulation<dim>::run_explicit(const ExplicitParameters &solver_parameters)
     }
     if (state.time >= end * field / n_fields)
     {
+      estimate_error();
       write_fields();
       time_of_fields = state.time;
       field = 1 + static_cast<unsigned int>(std::floor(state.time / end * n_fields));

@@ -27,50 +27,61 @@ std::string describe_iteration(double time, const NewtonReport &report)
 } // namespace
 
 template <int dim>
-std::optional<Complaint> Simulation<dim>::solve_load_step(QuasiStaticSolver<dim> &solver, double time)
+void Simulation<dim>::make_quasi_static_solver()
+{
+  quasi_static_solver = std::make_unique<QuasiStaticSolver<dim>>(
+      *discretization, *supports, scene, is_body_held, forces, surface_map.get(),
+      std::get<QuasiStaticParameters>(parameters.solver), run_time);
+}
+
+template <int dim>
+std::optional<Complaint> Simulation<dim>::solve_load_step(double time)
 {
   constexpr double largest_disturbance = 0.1;
   const State before = state;
   const double share = state.time / std::get<QuasiStaticParameters>(parameters.solver).end_time;
-  const bool is_solved = solver.solve(time, state,
-                                      [&](const NewtonReport &report)
-                                      { progress.step(describe_iteration(time, report), share); });
-  results.n_iterations = solver.n_iterations();
+  const unsigned int n_before = quasi_static_solver->n_iterations();
+  const bool is_solved = quasi_static_solver->solve(
+      time, state,
+      [&](const NewtonReport &report) { progress.step(describe_iteration(time, report), share); });
+  results.n_iterations += quasi_static_solver->n_iterations() - n_before;
   if (!is_solved)
-    return Complaint(solver.failure()).advise(solver.advice());
+    return Complaint(quasi_static_solver->failure()).advise(quasi_static_solver->advice());
   update_contact_measures();
   std::optional<Complaint> fault = find_deep_penetration();
-  if (!fault && solver.renewal_residual() > largest_disturbance)
+  const double disturbance = quasi_static_solver->renewal_residual();
+  if (!fault && disturbance > largest_disturbance)
     fault = Complaint(
                 fmt::format("points of integration that follow the bodies around change the forces by {:.1g}",
-                            solver.renewal_residual()))
+                            disturbance))
                 .advise("refine, or set Contact/Integration = face quadrature");
   if (fault)
     state = before;
-  else if (solver.renewal_residual() > 0.)
+  else if (disturbance > 0.)
     progress.say(fmt::format(
         "load {:.5g}: points of integration follow the bodies around, which leaves an error of {:.1e} of the "
         "forces",
-        time, solver.renewal_residual()));
+        time, disturbance));
   return fault;
 }
 
 template <int dim>
-void Simulation<dim>::run_quasi_static(const QuasiStaticParameters &solver_parameters)
+void Simulation<dim>::run_quasi_static()
 {
-  QuasiStaticSolver<dim> solver(*discretization, *supports, scene, is_body_held, forces, surface_map.get(),
-                                solver_parameters, run_time);
-  progress.say("Linear solver: " + solver.linear_solver_name());
+  const auto &solver_parameters = std::get<QuasiStaticParameters>(parameters.solver);
+  make_quasi_static_solver();
+  progress.say("Linear solver: " + quasi_static_solver->linear_solver_name());
   const double end = solver_parameters.end_time, largest_step = end / solver_parameters.load_steps;
   const double smallest_step = largest_step * std::pow(0.5, solver_parameters.max_bisections);
   double step = largest_step;
-  record_quasi_static(solver);
+  estimate_error();
+  record_quasi_static();
   write_fields();
   while (state.time < end * (1. - 1e-12))
   {
     check_interruption([]() {});
     const double time = end - state.time < step * (1. + 1e-9) ? end : state.time + step;
-    if (const std::optional<Complaint> fault = solve_load_step(solver, time))
+    if (const std::optional<Complaint> fault = solve_load_step(time))
     {
       step *= 0.5;
       progress.say(fmt::format("load {:.5g}: {}; trying half the step", time, fault->what));
@@ -83,7 +94,10 @@ void Simulation<dim>::run_quasi_static(const QuasiStaticParameters &solver_param
       continue;
     }
     ++results.n_steps;
-    record_quasi_static(solver);
+    estimate_error();
+    if (parameters.adaptivity)
+      adapt_to_load();
+    record_quasi_static();
     say_equilibrium(end);
     write_fields();
     step = std::min(largest_step, 2. * step);
@@ -103,10 +117,10 @@ void Simulation<dim>::say_equilibrium(double end)
 }
 
 template <int dim>
-void Simulation<dim>::record_quasi_static(const QuasiStaticSolver<dim> &solver)
+void Simulation<dim>::record_quasi_static()
 {
   record_state();
-  record_support_forces(solver.reactions());
+  record_support_forces(quasi_static_solver->reactions());
   results.energy.elastic = forces.elasticity->energy();
   results.energy.contact = 0.;
   for (const auto &term : forces.contacts)
@@ -122,6 +136,9 @@ void Simulation<dim>::record_quasi_static(const QuasiStaticSolver<dim> &solver)
   }
   append_resultants(row);
   append_bodies(row);
+  const ErrorEstimate &estimate = results.estimate;
+  row.emplace_back("estimated discretization error [1]", estimate.relative(estimate.discretization));
+  row.emplace_back("estimated contact error [1]", estimate.relative(estimate.contact));
   row.emplace_back("Newton iterations since the start [1]", results.n_iterations);
   if (statistics)
     statistics->write(row);

@@ -66,6 +66,7 @@ template <int dim>
 void Simulation<dim>::measure_bodies()
 {
   nodal_volume = make_nodal_volume(*discretization);
+  results.body_masses.clear();
   results.body_volumes.assign(scene.n_bodies(), 0.);
   for (const OwnedNode<dim> &node : discretization->owned_nodes)
     results.body_volumes[node.body] += nodal_volume.local_element(node.dofs[0]);
@@ -164,6 +165,10 @@ void Simulation<dim>::gather_results()
   gather_samples();
   gather_nodal_pressures();
   gather_extremes();
+  if (parameters.exact_solution && !parameters.exact_solution->displacement.empty())
+    results.displacement_error =
+        measure_displacement_error(*discretization, scene.materials, state.displacement,
+                                   parameters.exact_solution->displacement, state.time);
   constexpr double shallow = 0.1;
   if (results.max_penetration_over_thickness > shallow)
     warn(fmt::format("the largest penetration of the run, {:.3g} h, exceeds {} h: raise Contact/Penalty "
@@ -223,6 +228,9 @@ void Simulation<dim>::print_results()
     progress.say(
         fmt::format("Energy ledger open by {:.2e} at most; momentum drift {:.2e} linear, {:.2e} angular",
                     results.max_ledger_residual, results.max_linear_drift, results.max_angular_drift));
+  const ErrorEstimate &estimate = results.estimate;
+  progress.say(fmt::format("Estimated error in the energy norm: {:.2e} discretization, {:.2e} contact",
+                           estimate.relative(estimate.discretization), estimate.relative(estimate.contact)));
   for (const ErrorRow &row : results.errors)
     progress.say(fmt::format("{:<52} {:>14.7g}  exact {:>14.7g}  error {:+.3e}", row.quantity, row.computed,
                              row.exact, row.relative_error));

@@ -39,6 +39,10 @@ class Discretization
 public:
   Discretization(const Parameters &parameters, const MPI_Comm &communicator);
 
+  /// Refines and coarsens the mesh by the flags of its cells, numbers everything anew and carries `values`
+  /// over by interpolation (collective). Whatever was made from this object before is void.
+  void adapt(const std::vector<Vector *> &values);
+
   /// A zero vector with ghost entries for all that this rank's cells need.
   Vector make_vector() const;
 
@@ -71,6 +75,7 @@ public:
   const MPI_Comm &communicator() const { return mpi_communicator; }
 
 private:
+  void set_up();
   void number_dofs();
   void close_mapping();
   void fill_cell_table();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
+#include "signorini/adaptivity/error_estimate.h"
 #include "signorini/discretization/surface_map.h"
 #include "signorini/physics/state.h"
 #include "signorini/solvers/scene_forces.h"
@@ -20,17 +21,20 @@ namespace signorini
 /// Point data: displacement [m], velocity [m/s] (explicit runs), contact_pressure [Pa] and gap [m] (with
 /// contact; the pressure is the nodal contact force, without damping, over the undeformed area of the node,
 /// so that its integral over the undeformed surface is the force; the gap is at most one layer thickness and
-/// negative where bodies overlap). Cell data: body, von_mises_stress and the components of the true stress
-/// [Pa].
+/// negative where bodies overlap). Cell data: body, error_indicator
+/// (its share of the estimated error in the energy norm, both parts [J^½]), von_mises_stress and the
+/// components of the true stress [Pa].
 template <int dim>
 class Fields
 {
 public:
-  /// `map` is null in scenes without contact.
-  Fields(const Discretization<dim> &discretization, const SurfaceMap<dim> *map, std::string directory);
+  explicit Fields(std::string directory);
+
+  /// Takes a new mesh; `map` is null in scenes without contact. Both must live until the next call.
+  void set_mesh(const Discretization<dim> &discretization, const SurfaceMap<dim> *map);
 
   /// Throws FileError (collective).
-  void write(const State &state, const SceneForces<dim> &forces);
+  void write(const State &state, const SceneForces<dim> &forces, const ErrorEstimate &estimate);
 
 private:
   struct ContactFields
@@ -44,8 +48,8 @@ private:
   void number_contact_fields();
   std::pair<Vector, Vector> project_contact(const SceneForces<dim> &forces) const;
 
-  const Discretization<dim> *discretization;
-  const SurfaceMap<dim> *map;
+  const Discretization<dim> *discretization = nullptr;
+  const SurfaceMap<dim> *map = nullptr;
   std::string directory;
   std::unique_ptr<ContactFields> contact;
   std::vector<std::pair<double, std::string>> records;

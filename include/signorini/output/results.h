@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
+#include "signorini/adaptivity/error_estimate.h"
 #include "signorini/contact/potential/contact_potential.h"
+#include "signorini/output/displacement_error.h"
 #include "signorini/parameters/parameters.h"
 #include "signorini/physics/ledger.h"
 
@@ -101,6 +103,8 @@ struct Results
   double largest_support_displacement = 0.;
   std::array<double, 3> total_load{};                       ///< resultant of the loads at the end [N]
   std::vector<std::array<double, 3>> body_end_displacement; ///< largest displacement by component [m]
+  ErrorEstimate estimate;                                   ///< of the last load step or output of fields
+  DisplacementError displacement_error;                     ///< where the exact solution has a displacement
   std::vector<ErrorRow> errors;
 };
 } // namespace signorini

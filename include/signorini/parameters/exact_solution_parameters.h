@@ -9,7 +9,8 @@ namespace signorini
 /// Declare `Exact solution`, with the keys that belong to its case.
 void declare_exact_solution(Declarations &declarations, const DeclarationScope &scope);
 
-ExactSolutionParameters read_exact_solution(const ParameterText &text, const Declarations &in_use);
+ExactSolutionParameters read_exact_solution(const ParameterText &text, const Declarations &in_use,
+                                            unsigned int dimension);
 
 /// Throws InputError unless the scene is what its exact solution, if it names one, holds for.
 void check_exact_solution(const ParameterText &text, const Parameters &parameters);

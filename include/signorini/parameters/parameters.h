@@ -179,8 +179,9 @@ struct ExplicitParameters
 /// `subsection Exact solution`: what the run is measured against.
 struct ExactSolutionParameters
 {
-  std::string name;                     ///< entry of the table of exact solutions
-  std::map<std::string, double> values; ///< its numerical parameters, all present
+  std::string name;                      ///< entry of the table of exact solutions
+  std::map<std::string, double> values;  ///< its numerical parameters, all present
+  std::vector<std::string> displacement; ///< its displacement as formulas of x, y, z, t, one a component [m]
 };
 
 /// `subsection Output`.
@@ -189,6 +190,16 @@ struct OutputParameters
   std::string directory;           ///< default: output/NAME of the parameter file
   unsigned int n_fields = 10;      ///< how many VTU files a run writes, beside the first
   unsigned int n_statistics = 200; ///< about how many rows of statistics.csv an explicit run writes
+};
+
+/// `subsection Adaptivity`.
+struct AdaptivityParameters
+{
+  unsigned int max_cycles = 8;        ///< of solving, estimating and refining in one load step
+  double refine_share = 0.5;          ///< cells with this share of the squared error are refined
+  double coarsen_share = 0.01;        ///< cells with this share are made coarser
+  double target_error = 0.;           ///< relative error in the energy norm to stop at; 0: none
+  unsigned int max_n_dofs = 10000000; ///< no refinement beyond
 };
 
 struct Parameters
@@ -200,6 +211,7 @@ struct Parameters
   std::vector<ObstacleParameters> obstacles;
   std::optional<ContactParameters> contact;
   std::variant<QuasiStaticParameters, ExplicitParameters> solver;
+  std::optional<AdaptivityParameters> adaptivity;
   std::optional<ExactSolutionParameters> exact_solution;
   OutputParameters output;
 };

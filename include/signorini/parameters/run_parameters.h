@@ -16,6 +16,10 @@ void declare_solver(Declarations &declarations, const DeclarationScope &scope);
 std::variant<QuasiStaticParameters, ExplicitParameters> read_solver(const ParameterText &text,
                                                                     const Declarations &in_use);
 
+/// Declare `Adaptivity`.
+void declare_adaptivity(Declarations &declarations, const DeclarationScope &scope);
+AdaptivityParameters read_adaptivity(const ParameterText &text, const Declarations &in_use);
+
 /// Declare `Output`. Its directory is output/NAME by default, NAME being that of the parameter file.
 void declare_output(Declarations &declarations, const DeclarationScope &scope);
 OutputParameters read_output(const ParameterText &text, const Declarations &in_use);

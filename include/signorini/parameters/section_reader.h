@@ -41,6 +41,8 @@ public:
   std::array<unsigned int, 3> integers(const std::string &key) const;
   /// A vector; throws InputError if it has a third component other than zero in two dimensions.
   Triple vector(const std::string &key) const;
+  /// One formula a component, separated by ';'; throws InputError for another number of them.
+  std::vector<std::string> formulas(const std::string &key) const;
 
   template <typename Value>
   Value choice(const std::string &key, const NameTable<Value> &table) const

@@ -37,11 +37,11 @@ public:
   /// Overwrites `tangent`, row-major with rows [node][component], with ∂²W/∂u∂u.
   void compute_tangent(const CellGeometry &cell, const double *u, double *tangent);
 
+  /// Overwrites `stresses` [point] with the true stress, with its out-of-plane component in 2-D [Pa].
+  void compute_stresses(const CellGeometry &cell, const double *u, Eigen::Matrix3d *stresses);
+
   /// Volume mean of H + Hᵀ + HᵀH.
   Eigen::Matrix<double, dim, dim> mean_stretch(const CellGeometry &cell, const double *u) const;
-
-  /// Volume mean of the true stress [Pa].
-  Eigen::Matrix3d mean_stress(const CellGeometry &cell, const double *u);
 
 private:
   using Gradient = Eigen::Matrix<double, dim, dim>;

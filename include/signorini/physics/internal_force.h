@@ -30,6 +30,9 @@ public:
   /// what round-off is relative to [N].
   void add_magnitudes(Vector &magnitudes) const;
 
+  /// True stress at every quadrature point of the own cells, [cell][point] [Pa].
+  std::vector<Eigen::Matrix3d> point_stresses() const;
+
   /// Whether the tangent depends on the deformation.
   bool is_nonlinear() const;
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
+#include "signorini/adaptivity/error_estimator.h"
 #include "signorini/base/exceptions.h"
 #include "signorini/base/run_time.h"
 #include "signorini/discretization/supports.h"
@@ -39,18 +40,24 @@ public:
   void run();
 
 private:
+  /// All that stands on the present mesh.
+  void build_on_mesh();
   void build_contact();
   /// Throws InputError for a sphere that could pass between the points of a body's faces.
   void check_sphere_sizes() const;
   void check_initial_overlap();
   void list_parts();
 
-  void run_quasi_static(const QuasiStaticParameters &solver_parameters);
+  void run_quasi_static();
   void run_explicit(const ExplicitParameters &solver_parameters);
   /// Returns why there is none, with the state as it was.
-  std::optional<Complaint> solve_load_step(QuasiStaticSolver<dim> &solver, double time);
+  std::optional<Complaint> solve_load_step(double time);
   void record_explicit(const ExplicitSolver<dim> &solver, double time_step, double end_time);
-  void record_quasi_static(const QuasiStaticSolver<dim> &solver);
+  void record_quasi_static();
+  /// Refines the mesh and finds the equilibrium anew until the estimated error or the cycles end it.
+  void adapt_to_load();
+  void adapt_mesh();
+  void make_quasi_static_solver();
   void say_equilibrium(double end_time);
   /// Throws NumericalError if points could jump over what they ought to touch in an explicit step.
   void check_motion(double time_step) const;
@@ -65,6 +72,7 @@ private:
   void set_initial_motion();
   void check_start(const typename SupportedDofs<dim>::Entry &entry) const;
   void measure_bodies();
+  void estimate_error();
   void write_fields();
   void append_contact(Statistics::Row &row) const;
   void append_resultants(Statistics::Row &row) const;
@@ -96,6 +104,8 @@ private:
   State state;
   std::vector<bool> is_body_held;
 
+  std::unique_ptr<ErrorEstimator<dim>> estimator;
+  std::unique_ptr<QuasiStaticSolver<dim>> quasi_static_solver; ///< quasi-static runs
   std::unique_ptr<Fields<dim>> fields;
   std::unique_ptr<Statistics> statistics; ///< on rank 0
   Results<dim> results;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "signorini/contact/coupling/contact_force.h"
 
+#include "signorini/contact/potential/unseen_contact.h"
+
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
@@ -167,6 +169,56 @@ void ContactForce<dim>::add_row_sum_bounds(Vector &stiffness, Vector &damping) c
   };
   spread(nodal_stiffness, stiffness);
   spread(nodal_damping, damping);
+}
+
+template <int dim>
+std::vector<unsigned int> ContactForce<dim>::unseen_contact(const State &state) const
+{
+  const ContactSurface<dim> &surface = map->surface();
+  const std::vector<bool> is_active = potential.active_facets();
+  std::vector<signed char> is_seen(surface.n_nodes(), 0);
+  for (unsigned int f = 0; f < surface.facets.size(); ++f)
+    for (unsigned int i = 0; i < surface.facets[f].n_nodes(); ++i)
+      if (is_active[f])
+        is_seen[surface.facets[f].nodes[i]] = 1;
+  MPI_Allreduce(MPI_IN_PLACE, is_seen.data(), static_cast<int>(is_seen.size()), MPI_SIGNED_CHAR, MPI_MAX,
+                communicator);
+  return contact::find_unseen_contact(surface, potential.pair_list(), positions(state),
+                                      std::vector<bool>(is_seen.begin(), is_seen.end()));
+}
+
+template <int dim>
+std::vector<std::array<double, Facet<dim>::max_n_nodes>> ContactForce<dim>::facet_pressures() const
+{
+  const ContactSurface<dim> &surface = map->surface();
+  std::vector<std::array<double, Facet<dim>::max_n_nodes>> pressures(surface.facets.size());
+  for (auto &of_facet : pressures)
+    of_facet.fill(0.);
+  for (const contact::ContactSample<dim> &sample : potential.samples())
+  {
+    const Facet<dim> &facet = surface.facets[sample.facet];
+    for (unsigned int i = 0; i < facet.n_nodes(); ++i)
+      pressures[sample.facet][i] +=
+          contact::evaluate_hat_function(facet, i, sample.xi) * sample.full_area * sample.pressure;
+  }
+  const auto points = contact::make_gauss_points<dim>(3);
+  for (unsigned int f = 0; f < surface.facets.size(); ++f)
+  {
+    const Facet<dim> &facet = surface.facets[f];
+    if (!facet.owned)
+      continue;
+    const auto nodes = contact::gather_nodes(facet, surface.reference_positions);
+    std::array<double, Facet<dim>::max_n_nodes> areas{};
+    for (const auto &point : points)
+    {
+      const double area = point.weight * contact::evaluate_facet_frame(nodes, point.xi).area_normal.norm();
+      for (unsigned int i = 0; i < facet.n_nodes(); ++i)
+        areas[i] += area * contact::evaluate_hat_function(facet, i, point.xi);
+    }
+    for (unsigned int i = 0; i < facet.n_nodes(); ++i)
+      pressures[f][i] /= areas[i];
+  }
+  return pressures;
 }
 
 template <int dim>

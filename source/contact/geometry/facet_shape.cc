@@ -3,7 +3,9 @@
 
 #include <Eigen/Geometry>
 
+#include <algorithm>
 #include <cassert>
+#include <cmath>
 
 namespace signorini::contact
 {
@@ -90,6 +92,20 @@ FacetFrame<dim> evaluate_facet_frame(const FacetNodes<dim> &nodes, const LocalPo
   return frame;
 }
 
+template <int dim>
+double evaluate_hat_function(const Facet<dim> &facet, unsigned int i, const LocalPoint<dim> &xi)
+{
+  double value = 1.;
+  for (int d = 0; d < dim - 1; ++d)
+  {
+    const unsigned int index = d == 0 ? i % (facet.degree + 1) : i / (facet.degree + 1);
+    value *= std::max(0., 1. - std::abs(facet.degree * xi[d] - index));
+  }
+  return value;
+}
+
+template double evaluate_hat_function(const Facet<2> &, unsigned int, const LocalPoint<2> &);
+template double evaluate_hat_function(const Facet<3> &, unsigned int, const LocalPoint<3> &);
 template FacetShape<2> evaluate_facet_shape<2>(unsigned int, const LocalPoint<2> &);
 template FacetShape<3> evaluate_facet_shape<3>(unsigned int, const LocalPoint<3> &);
 template FacetNodes<2> gather_nodes(const Facet<2> &, const std::vector<SpatialVector<2>> &);

@@ -355,6 +355,26 @@ PairForces<dim> ContactPotential<dim>::pair_forces(const std::vector<SpatialVect
 }
 
 template <int dim>
+std::vector<double> ContactPotential<dim>::facet_errors() const
+{
+  std::vector<double> errors(surface.facets.size(), 0.);
+  for_each_pair_deeper_than(0.,
+                            [&](const NearPair &near) {
+                              errors[near.pair.facet] +=
+                                  near.pair.area * near.pair.stiffness * near.foot.depth * near.foot.depth;
+                            });
+  return errors;
+}
+
+template <int dim>
+std::vector<bool> ContactPotential<dim>::active_facets() const
+{
+  std::vector<bool> is_active(surface.facets.size(), false);
+  for_each_pair_deeper_than(0., [&](const NearPair &near) { is_active[near.pair.facet] = true; });
+  return is_active;
+}
+
+template <int dim>
 std::vector<ContactSample<dim>> ContactPotential<dim>::samples() const
 {
   std::vector<ContactSample<dim>> all;

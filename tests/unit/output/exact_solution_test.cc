@@ -61,7 +61,7 @@ TEST(Hertz, TakesTheBodiesThatTouch)
   parameters.bodies[0].material.youngs_modulus = 2.;
   parameters.obstacles.resize(1);
   parameters.exact_solution =
-      ExactSolutionParameters{"Hertz sphere", {{"Radius", 1.}, {"Fraction of the contact", 1.}}};
+      ExactSolutionParameters{"Hertz sphere", {{"Radius", 1.}, {"Fraction of the contact", 1.}}, {}};
   const double on_obstacle = peak_pressure<3>(parameters);
   EXPECT_NEAR(on_obstacle, std::cbrt(6. * 4.) / std::acos(-1.), 1e-14); // p₀³ = 6 P E*²/(π³R²)
   parameters.obstacles.clear();
@@ -75,7 +75,7 @@ TEST(ExactSolution, IsNotComparedWithWhereNothingTouches)
 {
   Parameters parameters;
   parameters.exact_solution =
-      ExactSolutionParameters{"Hertz sphere", {{"Radius", 1.}, {"Fraction of the contact", 1.}}};
+      ExactSolutionParameters{"Hertz sphere", {{"Radius", 1.}, {"Fraction of the contact", 1.}}, {}};
   Results<3> results;
   results.parameters = &parameters;
   results.contact.resultants.push_back({0., 0., 1.});

@@ -47,6 +47,17 @@ public:
   /// [m²; m in 2-D] (collective).
   std::vector<double> nodal_areas() const;
 
+  /// This rank's facets in a contact that they are too large to see at that state, see
+  /// contact::find_unseen_contact() (collective).
+  std::vector<unsigned int> unseen_contact(const State &state) const;
+
+  /// See ContactPotential::facet_errors(); non-zero for this rank's facets only.
+  std::vector<double> facet_errors() const { return potential.facet_errors(); }
+
+  /// Pressure at the nodes of this rank's facets, [facet][node of the facet], as the facet's own points have
+  /// it: ∫ p N dA / ∫ N dA with N the hat functions of the facet's nodes [Pa].
+  std::vector<std::array<double, Facet<dim>::max_n_nodes>> facet_pressures() const;
+
   /// This rank's points.
   std::vector<contact::ContactSample<dim>> samples() const;
 

@@ -23,6 +23,11 @@ struct FacetShape
 template <int dim>
 FacetShape<dim> evaluate_facet_shape(unsigned int degree, const LocalPoint<dim> &xi);
 
+/// The piecewise linear function that is 1 at node i of a facet and 0 at its other nodes: nowhere negative,
+/// and over the nodes they sum to 1.
+template <int dim>
+double evaluate_hat_function(const Facet<dim> &facet, unsigned int i, const LocalPoint<dim> &xi);
+
 /// Positions of one facet's nodes, in the order of `Facet::nodes`.
 template <int dim>
 struct FacetNodes

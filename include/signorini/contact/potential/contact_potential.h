@@ -83,8 +83,17 @@ public:
 
   ContactMeasures<dim> measure() const;
 
+  /// Σ_q A_q k_A d_q² over the points of each facet, [facet]: twice the stored energy, the square of what the
+  /// penalty leaves of the error in the energy norm [J; J/m in 2-D].
+  std::vector<double> facet_errors() const;
+
   /// Resultants by pair; with the damping of these velocities of the nodes, unless there are none.
   PairForces<dim> pair_forces(const std::vector<SpatialVector<dim>> &velocities) const;
+
+  /// Which owned facets have a point in contact, [facet].
+  std::vector<bool> active_facets() const;
+
+  const PairList<dim> &pair_list() const { return pairs; }
 
   /// All points in contact or less than a skin away whose facet faces the other surface.
   std::vector<ContactSample<dim>> samples() const;

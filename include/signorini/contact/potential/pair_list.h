@@ -57,6 +57,8 @@ public:
   /// How deep a point of that facet sees another body [m].
   double reach(unsigned int facet) const { return reach_[facet]; }
 
+  bool is_excluded_obstacle(unsigned int body, unsigned int obstacle) const;
+
 private:
   struct FacetPoint
   {
@@ -69,7 +71,6 @@ private:
   double compute_skin() const;
   std::vector<double> compute_reach() const;
   NeighbourList<dim> make_neighbour_list() const;
-  bool is_excluded_obstacle(unsigned int body, unsigned int obstacle) const;
 
   /// Gives pairs that were there before the stiffness and damping they had: a point in contact keeps its law,
   /// whichever facet it has come nearest to, so that renewal brings no energy.

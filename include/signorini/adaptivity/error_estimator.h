@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include "signorini/adaptivity/error_estimate.h"
+#include "signorini/adaptivity/stress_recovery.h"
+#include "signorini/discretization/surface_map.h"
+#include "signorini/scene/scene.h"
+#include "signorini/solvers/scene_forces.h"
+
+namespace signorini
+{
+/// Estimates the error of an equilibrium in two parts.
+///
+/// *Discretisation:* η_K² = ∫_K (σ* − σ_h) : C⁻¹ : (σ* − σ_h) dV with a recovered stress σ*, which on
+/// boundary faces is made to balance what is known of their traction t: σ* n = t with t of the loads, of
+/// contact, or zero, in every component that no support prescribes. A free face and a face under contact
+/// pressure are not the same.
+///
+/// *Contact:* η_K² = Σ_q A_q k_A d_q² over the points of the cell's facets. Load controlled, the penalty
+/// lowers the minimum of the energy by half the sum of these, as ‖e‖²/2 raises it for a discretisation error
+/// e.
+template <int dim>
+class ErrorEstimator
+{
+public:
+  /// The arguments must outlive this object. `map` is null in scenes without contact.
+  ErrorEstimator(const Discretization<dim> &discretization, const Scene<dim> &scene,
+                 const SceneForces<dim> &forces, const SurfaceMap<dim> *map);
+
+  /// Of `state`, which the forces must have been updated to (collective).
+  ErrorEstimate estimate(const State &state);
+
+private:
+  /// A boundary face of an own cell.
+  struct BoundaryFace
+  {
+    unsigned int cell = 0;
+    unsigned int body = 0;
+    unsigned int boundary_id = 0;            ///< see global_boundary_id()
+    std::vector<unsigned int> nodes;         ///< of the cell
+    std::vector<SpatialVector<dim>> normals; ///< one a node
+    std::vector<dealii::Point<dim>> positions;
+    unsigned int facet = 0;                ///< scenes with contact: that of the contact surface
+    std::vector<unsigned int> facet_nodes; ///< the facet's nodes, one a node
+  };
+
+  void collect_boundary_faces();
+  void join_facets();
+  using FacetPressures = std::vector<std::array<double, Facet<dim>::max_n_nodes>>;
+  void balance_tractions(const BoundaryFace &face, double time, const FacetPressures &pressures,
+                         std::vector<Eigen::Matrix3d> &nodal) const;
+  SpatialVector<dim> load_traction(const BoundaryFace &face, unsigned int node, double time) const;
+  FacetPressures gather_pressures() const;
+  void find_unseen_contact(const State &state, ErrorEstimate &result) const;
+  double squared_error(unsigned int cell, const std::vector<Eigen::Matrix3d> &nodal,
+                       const Eigen::Matrix3d *point_stresses) const;
+
+  const Discretization<dim> *discretization;
+  const Scene<dim> *scene;
+  const SceneForces<dim> *forces;
+  const SurfaceMap<dim> *map;
+  StressRecovery<dim> recovery;
+  std::vector<BoundaryFace> faces; ///< in the order of their cells
+};
+} // namespace signorini
