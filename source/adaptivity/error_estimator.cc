@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "signorini/adaptivity/error_estimator.h"
 
+#include "signorini/base/to_eigen.h"
 #include "signorini/discretization/scene_mesh.h"
 
 #include <deal.II/base/quadrature_lib.h>
@@ -45,8 +46,7 @@ void ErrorEstimator<dim>::collect_boundary_faces()
         face.boundary_id = cell->face(f)->boundary_id();
         for (unsigned int q = 0; q < at_nodes.size(); ++q)
         {
-          const auto normal = values.normal_vector(q);
-          face.normals.push_back(Eigen::Map<const SpatialVector<dim>>(normal.begin_raw()));
+          face.normals.push_back(to_eigen(values.normal_vector(q)));
           face.positions.push_back(values.quadrature_point(q));
           for (unsigned int a = 0; a < discretization->cells.n_nodes; ++a)
             if (values.shape_value(element.component_to_system_index(0, a), q) > 0.5)

@@ -3,6 +3,7 @@
 
 #include "signorini/base/collective_error.h"
 #include "signorini/base/exceptions.h"
+#include "signorini/base/to_eigen.h"
 #include "signorini/discretization/scene_mesh.h"
 
 #include <deal.II/base/quadrature_lib.h>
@@ -187,7 +188,7 @@ void Discretization<dim>::check_cells() const
       continue;
     const dealii::Point<dim> centre = cell->center();
     throw InputError(Complaint("the mesh has a cell that is partly inside out")
-                         .at(fmt::format("({:.6g})", fmt::join(centre.begin_raw(), centre.end_raw(), ", ")))
+                         .at(fmt::format("({:.6g})", fmt::join(to_eigen<dim>(centre), ", ")))
                          .found(fmt::format("a cell {:.3g} m across of body number {}", cell->diameter(),
                                             cell->material_id() + 1))
                          .advise("refine that body, or give it another shape"));

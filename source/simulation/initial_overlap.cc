@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "signorini/simulation/initial_overlap.h"
 
+#include "signorini/base/to_eigen.h"
 #include "signorini/contact/geometry/facet_shape.h"
 #include "signorini/parameters/contact_parameters.h"
 
@@ -22,12 +23,6 @@ std::vector<SpatialVector<dim>> current_positions(const SurfaceMap<dim> &surface
   for (unsigned int node = 0; node < positions.size(); ++node)
     positions[node] += surface_map.surface().origin + surface_map.surface().reference_positions[node];
   return positions;
-}
-
-template <int dim>
-SpatialVector<dim> to_eigen(const dealii::Point<dim> &x)
-{
-  return Eigen::Map<const SpatialVector<dim>>(x.begin_raw());
 }
 
 /// Whether a point lies deeper than another, beyond round-off, which must not choose among equals.

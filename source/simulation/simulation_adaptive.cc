@@ -44,6 +44,9 @@ void Simulation<dim>::adapt_mesh()
   mark_cells(results.estimate, *parameters.adaptivity, *discretization);
   discretization->adapt({&state.displacement});
   build_on_mesh();
+  // New supported nodes have values between those of the old ones, not their own.
+  supports->impose(state.time, state.displacement);
+  discretization->distribute(state.displacement);
   make_quasi_static_solver();
   fields->set_mesh(*discretization, surface_map.get());
   measure_bodies();

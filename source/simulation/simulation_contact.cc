@@ -66,6 +66,7 @@ void Simulation<dim>::build_contact()
 {
   const contact::PotentialSettings settings = make_settings<dim>(parameters);
   surface_map = std::make_unique<SurfaceMap<dim>>(scene, *discretization);
+  results.has_contact = true;
   if (scene.n_bodies() > 1)
     forces.contacts.push_back(std::make_shared<ContactForce<dim>>(
         "contact of bodies", false, *surface_map, typename contact::ContactPotential<dim>::Obstacles(),
@@ -84,11 +85,10 @@ void Simulation<dim>::build_contact()
 }
 
 template <int dim>
-void Simulation<dim>::update_contact_measures()
+contact::ContactMeasures<dim> Simulation<dim>::measure_contact() const
 {
   if (forces.contacts.empty())
-    return;
-  results.has_contact = true;
+    return {};
   contact::ContactMeasures<dim> total = forces.contacts.front()->measure();
   for (std::size_t i = 1; i < forces.contacts.size(); ++i)
   {
@@ -108,10 +108,20 @@ void Simulation<dim>::update_contact_measures()
     for (unsigned int body = 0; body < total.resultants.size(); ++body)
       total.resultants[body] += other.resultants[body];
   }
-  results.contact = total;
+  return total;
+}
+
+template <int dim>
+void Simulation<dim>::record_contact()
+{
+  results.contact = measure_contact();
+  const contact::ContactMeasures<dim> &now = results.contact;
+  results.max_penetration = std::max(results.max_penetration, now.max_penetration);
   results.max_penetration_over_thickness =
-      std::max(results.max_penetration_over_thickness, total.max_penetration_over_thickness);
-  results.max_n_pairs = std::max(results.max_n_pairs, total.n_pairs);
+      std::max(results.max_penetration_over_thickness, now.max_penetration_over_thickness);
+  results.max_pressure = std::max(results.max_pressure, now.max_pressure);
+  results.max_area = std::max(results.max_area, now.area);
+  results.max_n_pairs = std::max(results.max_n_pairs, now.n_pairs);
 }
 
 template <int dim>
@@ -143,7 +153,7 @@ void Simulation<dim>::check_sphere_sizes() const
                 fmt::format("obstacle '{}' is too small for the faces of body '{}': it could slip between "
                             "their points of integration",
                             obstacle.name, scene.body_names[body]))
-                .at("subsection Obstacle " + obstacle.name)
+                .at(text->where("Obstacle " + obstacle.name))
                 .found(fmt::format("Radius = {}", obstacle.radius))
                 .expected("to be seen before it is a quarter of an element deep")
                 .advise("refine the body, raise Contact/Quadrature points, or exclude the pair"));
@@ -164,16 +174,16 @@ void Simulation<dim>::check_initial_overlap()
     contact->update(state);
     energy += contact->energy();
   }
-  update_contact_measures();
-  if (!results.has_contact)
+  if (!surface_map)
     return;
   check_sphere_sizes();
+  const contact::ContactMeasures<dim> measures = measure_contact();
   const OverlapSearch<dim> search(parameters, scene, *discretization, *surface_map, state.displacement);
   std::optional<InitialOverlap<dim>> overlap = search.find_gross(allowed);
-  if (!overlap && results.max_penetration_over_thickness > allowed)
+  if (!overlap && measures.max_penetration_over_thickness > allowed)
   {
-    const Facet<dim> &facet = surface_map->surface().facets[results.contact.deepest_facet];
-    overlap = search.find_at(facet.body, results.contact.deepest_position);
+    const Facet<dim> &facet = surface_map->surface().facets[measures.deepest_facet];
+    overlap = search.find_at(facet.body, measures.deepest_position);
     overlap->thickness = facet.layer_thickness;
   }
   if (!overlap)
@@ -200,9 +210,7 @@ void Simulation<dim>::check_motion(double time_step) const
   constexpr double limit = 0.5;
   if (!surface_map)
     return;
-  double thinnest = std::numeric_limits<double>::max();
-  for (const Facet<dim> &facet : surface_map->surface().facets)
-    thinnest = std::min(thinnest, facet.room);
+  const double thinnest = surface_map->surface().smallest_room();
   const double motion = time_step * state.velocity.linfty_norm();
   if (motion > limit * thinnest)
     throw NumericalError(
@@ -216,10 +224,10 @@ void Simulation<dim>::check_motion(double time_step) const
 }
 
 template <int dim>
-std::optional<Complaint> Simulation<dim>::find_deep_penetration() const
+std::optional<Complaint>
+Simulation<dim>::find_deep_penetration(const contact::ContactMeasures<dim> &deepest) const
 {
   constexpr double limit = 0.5;
-  const auto &deepest = results.contact;
   if (deepest.max_penetration_over_thickness <= limit)
     return {};
   const bool is_a_leap = deepest.max_penetration_over_thickness > 2.;

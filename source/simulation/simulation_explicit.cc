@@ -42,9 +42,8 @@ void Simulation<dim>::run_explicit(const ExplicitParameters &solver_parameters)
     if (end - state.time < 1e-9 * time_step)
       state.time = end;
     ++results.n_steps;
-    update_contact_measures();
-    note_peaks();
-    if (const std::optional<Complaint> fault = find_deep_penetration())
+    record_contact();
+    if (const std::optional<Complaint> fault = find_deep_penetration(results.contact))
       throw NumericalError(*fault);
     if (state.time >= end * row / n_rows)
     {

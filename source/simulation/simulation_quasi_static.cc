@@ -47,8 +47,7 @@ std::optional<Complaint> Simulation<dim>::solve_load_step(double time)
   results.n_iterations += quasi_static_solver->n_iterations() - n_before;
   if (!is_solved)
     return Complaint(quasi_static_solver->failure()).advise(quasi_static_solver->advice());
-  update_contact_measures();
-  std::optional<Complaint> fault = find_deep_penetration();
+  std::optional<Complaint> fault = find_deep_penetration(measure_contact());
   const double disturbance = quasi_static_solver->renewal_residual();
   if (!fault && disturbance > largest_disturbance)
     fault = Complaint(

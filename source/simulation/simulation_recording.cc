@@ -39,18 +39,9 @@ std::array<double, 3> force_of_pair(const typename contact::PairForces<dim>::Tab
 } // namespace
 
 template <int dim>
-void Simulation<dim>::note_peaks()
-{
-  results.max_penetration = std::max(results.max_penetration, results.contact.max_penetration);
-  results.max_pressure = std::max(results.max_pressure, results.contact.max_pressure);
-  results.max_area = std::max(results.max_area, results.contact.area);
-}
-
-template <int dim>
 void Simulation<dim>::record_state()
 {
-  update_contact_measures();
-  note_peaks();
+  record_contact();
   contact::PairForces<dim> pair_forces;
   for (const auto &term : forces.contacts)
   {

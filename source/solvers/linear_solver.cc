@@ -138,7 +138,8 @@ public:
   std::string name() const override { return "conjugate gradients with BoomerAMG"; }
 
 private:
-  /// Sparse coarse levels: hypre's own defaults fill them up in 3-D, at twelve times the cost of a cycle.
+  /// Sparse coarse levels: hypre's own defaults fill them up in 3-D, at six to nine times the cost of a
+  /// cycle.
   void set_multigrid_options() const
   {
     const std::pair<const char *, const char *> options[] = {

@@ -52,11 +52,7 @@ QuasiStaticSolver<dim>::QuasiStaticSolver(const Discretization<dim> &the_discret
                                             std::pow(volume[node.body], -2. / dim) *
                                             nodal_volume.local_element(dof);
   if (map)
-  {
-    longest_step = std::numeric_limits<double>::max();
-    for (const Facet<dim> &facet : map->surface().facets)
-      longest_step = std::min(longest_step, 0.25 * facet.room);
-  }
+    longest_step = 0.25 * map->surface().smallest_room();
 }
 
 template <int dim>

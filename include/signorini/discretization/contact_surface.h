@@ -3,7 +3,9 @@
 
 #include "signorini/base/spatial_vector.h"
 
+#include <algorithm>
 #include <array>
+#include <limits>
 #include <vector>
 
 namespace signorini
@@ -44,5 +46,14 @@ struct ContactSurface
   unsigned int n_bodies = 0;
 
   unsigned int n_nodes() const { return static_cast<unsigned int>(reference_positions.size()); }
+
+  /// The largest double for a surface without facets [m].
+  double smallest_room() const
+  {
+    double smallest = std::numeric_limits<double>::max();
+    for (const Facet<dim> &facet : facets)
+      smallest = std::min(smallest, facet.room);
+    return smallest;
+  }
 };
 } // namespace signorini

@@ -61,10 +61,12 @@ private:
   void say_equilibrium(double end_time);
   /// Throws NumericalError if points could jump over what they ought to touch in an explicit step.
   void check_motion(double time_step) const;
-  /// Whether points are so deep that they could pass through, in the state last measured.
-  std::optional<Complaint> find_deep_penetration() const;
-  void update_contact_measures();
-  void note_peaks();
+  /// Whether points are so deep that they could pass through.
+  std::optional<Complaint> find_deep_penetration(const contact::ContactMeasures<dim> &deepest) const;
+  /// Of all contact terms at their last update (collective).
+  contact::ContactMeasures<dim> measure_contact() const;
+  /// Takes a state that is part of the run into the results and their peaks.
+  void record_contact();
   void record_bodies(const contact::PairForces<dim> &pair_forces);
   void record_contact_forces(const contact::PairForces<dim> &pair_forces);
   void record_support_forces(const Vector &reactions);
