@@ -58,7 +58,7 @@ template <int dim>
 Json describe_contact(const Results<dim> &results)
 {
   const contact::ContactMeasures<dim> &contact = results.contact;
-  return {{"alpha", results.parameters->contact->penalty_factor},
+  return {{"alpha", results.penalty_factor},
           {"effective_stiffness", contact.max_stiffness},
           {"max_penetration", contact.max_penetration},
           {"max_penetration_over_h", contact.max_penetration_over_thickness},

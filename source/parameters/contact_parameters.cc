@@ -106,8 +106,13 @@ void declare_contact(Declarations &declarations, const DeclarationScope &scope)
 {
   SubsectionDeclaration contact(declarations, "Contact",
                                 "Contact of bodies with each other and with obstacles.");
-  contact.add("Penalty factor", positive_number(), "10", "",
-              "α: stiffness of the contact relative to that of the cells behind it.");
+  contact.add(
+      "Penalty factor", or_word(positive_number(), "auto"), "10", "",
+      "α: stiffness of the contact relative to that of the cells behind it; auto (quasi-static runs): "
+      "as large as the estimated errors ask for.");
+  contact.add("Contact share", number_above_up_to(0., 1.), "0.25", "",
+              "Penalty factor = auto: estimated error by contact over that of discretization, in the energy "
+              "norm.");
   contact.add("Integration", one_of(names_in(integrations())), "automatic", "",
               "Automatic: face segments in quasi-static runs, face quadrature in explicit ones.");
   contact.add("Quadrature points", integer_from(1, 8), "3", "",
@@ -120,6 +125,17 @@ void declare_contact(Declarations &declarations, const DeclarationScope &scope)
   if (scope.includes("Contact/Damping"))
     SubsectionDeclaration(declarations, "Contact/Damping", "Dissipation in contact; explicit runs only.")
         .add_required("Damping ratio", number_from(0.), "", "ξ: share of critical damping of the contact.");
+  if (scope.includes("Contact/Correction"))
+  {
+    SubsectionDeclaration correction(
+        declarations, "Contact/Correction",
+        "Takes away the error of the penalty at a fixed penalty factor: contact starts from the normal "
+        "stress "
+        "of the bodies, found again after each equilibrium; quasi-static runs only.");
+    correction.add("Tolerance", number_between(0., 1.), "1e-4", "",
+                   "Largest change of the pressures from step to step, relative to the largest pressure.");
+    correction.add("Maximum steps", integer_from(1, 1000), "30", "", "Of correction in one load step.");
+  }
 }
 
 ContactParameters read_contact(const ParameterText &text, const Declarations &in_use,
@@ -128,7 +144,10 @@ ContactParameters read_contact(const ParameterText &text, const Declarations &in
 {
   const SectionReader section(text, in_use, "Contact", 3);
   ContactParameters contact;
-  contact.penalty_factor = section.number("Penalty factor");
+  contact.penalty_factor.reset();
+  if (section.value("Penalty factor") != "auto")
+    contact.penalty_factor = section.number("Penalty factor");
+  contact.contact_share = section.number("Contact share");
   contact.integration = section.choice("Integration", integrations());
   contact.quadrature_points = section.integer("Quadrature points");
   contact.excluded_pairs = read_pairs(section, bodies, obstacles);
@@ -136,6 +155,12 @@ ContactParameters read_contact(const ParameterText &text, const Declarations &in
   if (text.find_subsection("Contact/Damping") != nullptr)
     contact.damping =
         DampingParameters{SectionReader(text, in_use, "Contact/Damping", 3).number("Damping ratio")};
+  if (text.find_subsection("Contact/Correction") != nullptr)
+  {
+    const SectionReader correction(text, in_use, "Contact/Correction", 3);
+    contact.correction =
+        CorrectionParameters{correction.number("Tolerance"), correction.integer("Maximum steps")};
+  }
   return contact;
 }
 

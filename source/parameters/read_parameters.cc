@@ -95,6 +95,36 @@ void check_quasi_static(const ParameterText &text, const Parameters &parameters)
   reject("Contact/Damping", "without velocity there is no damping");
 }
 
+/// Things that only an equilibrium has.
+void check_explicit(const ParameterText &text, const Parameters &parameters)
+{
+  if (!parameters.contact)
+    return;
+  const auto complain = [&](const std::string &what, const std::string &place)
+  { return Complaint(what).at(place).found("'Explicit' stands at " + text.where("Explicit")); };
+  if (parameters.contact->correction)
+    throw InputError(complain("'Contact/Correction' contradicts 'Explicit': it goes from equilibrium to "
+                              "equilibrium",
+                              text.where("Contact/Correction"))
+                         .advise("remove the subsection, or run 'Quasi-static'"));
+  if (!parameters.contact->penalty_factor)
+    throw InputError(
+        complain("'Penalty factor = auto' contradicts 'Explicit': it goes from equilibrium to equilibrium",
+                 text.where("Contact", "Penalty factor"))
+            .expected("a number")
+            .advise("give a number such as 2, or run 'Quasi-static'"));
+}
+
+void check_contact_error(const ParameterText &text, const Parameters &parameters)
+{
+  if (parameters.contact && parameters.contact->correction && !parameters.contact->penalty_factor)
+    throw InputError(Complaint("'Penalty factor = auto' and 'Contact/Correction' contradict each other: the "
+                               "correction takes away the error that would choose the factor")
+                         .at(text.where("Contact", "Penalty factor"))
+                         .found("'Correction' stands at " + text.where("Contact/Correction"))
+                         .advise("give a number such as 10, or remove the subsection"));
+}
+
 void check_densities(const ParameterText &text, const Parameters &parameters)
 {
   const bool is_explicit = std::holds_alternative<ExplicitParameters>(parameters.solver);
@@ -140,6 +170,9 @@ void check_together(const ParameterText &text, const Parameters &parameters)
                          .at(text.where("Adaptivity"))
                          .found("'Explicit' stands at " + text.where("Explicit"))
                          .advise("remove the subsection, or run 'Quasi-static'"));
+  else
+    check_explicit(text, parameters);
+  check_contact_error(text, parameters);
   check_densities(text, parameters);
   for (const BodyParameters &body : parameters.bodies)
     check_expressions(text, body, parameters.dimension, end_time);

@@ -97,6 +97,8 @@ bool ValueRange::contains(const std::string &value) const
   default:
     break;
   }
+  if (std::find(choices.begin(), choices.end(), value) != choices.end())
+    return true;
   const std::vector<std::string> parts = split(value, ',');
   return parts.size() >= min_components && parts.size() <= max_components &&
          std::all_of(parts.begin(), parts.end(),
@@ -116,7 +118,7 @@ std::string ValueRange::description() const
   case Kind::choice:
     return "one of " + join(choices, ", ");
   default:
-    return describe_components(*this);
+    return describe_components(*this) + (choices.empty() ? "" : ", or " + join(choices, ", "));
   }
 }
 
@@ -191,6 +193,12 @@ ValueRange integer_from(const long lower, const long upper)
   ValueRange range = of_kind(ValueRange::Kind::integer);
   range.lower = static_cast<double>(lower);
   range.upper = static_cast<double>(upper);
+  return range;
+}
+
+ValueRange or_word(ValueRange range, const std::string &word)
+{
+  range.choices.push_back(word);
   return range;
 }
 

@@ -77,6 +77,7 @@ void Simulation<dim>::list_parts()
   note(scene.n_bodies() > 1 && surface_map, "contact of bodies",
        surface_map ? "one body only" : "no subsection Contact");
   note(!scene.obstacles.empty(), "contact with obstacles", "no obstacle");
+  note(correction != nullptr, "contact correction", "no subsection Contact/Correction");
   note(!forces.damped_contacts.empty(), "contact damping", "no subsection Contact/Damping");
   note(!is_explicit, "quasi-static solver", "the run is explicit");
   note(is_explicit, "explicit solver", "the run is quasi-static");

@@ -2,6 +2,7 @@
 // The loop of refinement within a load step.
 #include "signorini/simulation/simulation.h"
 
+#include "signorini/adaptivity/contact_marking.h"
 #include "signorini/adaptivity/marking.h"
 #include "signorini/base/exceptions.h"
 
@@ -42,6 +43,9 @@ void Simulation<dim>::adapt_mesh()
 {
   const auto section = run_time.enter("refinement");
   mark_cells(results.estimate, *parameters.adaptivity, *discretization);
+  if (surface_map)
+    level_curved_contact(estimator->boundary_faces(), estimator->contact_pressures(), *surface_map,
+                         *discretization);
   discretization->adapt({&state.displacement});
   build_on_mesh();
   // New supported nodes have values between those of the old ones, not their own.

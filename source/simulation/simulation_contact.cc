@@ -18,13 +18,13 @@ namespace signorini
 namespace
 {
 template <int dim>
-contact::PotentialSettings make_settings(const Parameters &parameters)
+contact::PotentialSettings make_settings(const Parameters &parameters, double penalty_factor)
 {
   using Wanted = ContactParameters::Integration;
   const ContactParameters &contact = *parameters.contact;
   const bool is_explicit = std::holds_alternative<ExplicitParameters>(parameters.solver);
   contact::PotentialSettings settings;
-  settings.penalty_factor = contact.penalty_factor;
+  settings.penalty_factor = penalty_factor;
   settings.n_quadrature_points = contact.quadrature_points;
   const bool is_by_faces =
       contact.integration == Wanted::automatic ? is_explicit : contact.integration == Wanted::face_quadrature;
@@ -64,7 +64,10 @@ std::string format_point(const SpatialVector<dim> &x)
 template <int dim>
 void Simulation<dim>::build_contact()
 {
-  const contact::PotentialSettings settings = make_settings<dim>(parameters);
+  constexpr double first_penalty_factor = 10.;
+  if (results.penalty_factor == 0.)
+    results.penalty_factor = parameters.contact->penalty_factor.value_or(first_penalty_factor);
+  const contact::PotentialSettings settings = make_settings<dim>(parameters, results.penalty_factor);
   surface_map = std::make_unique<SurfaceMap<dim>>(scene, *discretization);
   results.has_contact = true;
   if (scene.n_bodies() > 1)
@@ -82,6 +85,8 @@ void Simulation<dim>::build_contact()
   }
   if (settings.damping_ratio)
     forces.damped_contacts = forces.contacts;
+  if (parameters.contact->correction)
+    correction = std::make_unique<ContactCorrection<dim>>(*discretization, scene, forces, *surface_map);
 }
 
 template <int dim>

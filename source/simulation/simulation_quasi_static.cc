@@ -37,8 +37,29 @@ void Simulation<dim>::make_quasi_static_solver()
 template <int dim>
 std::optional<Complaint> Simulation<dim>::solve_load_step(double time)
 {
-  constexpr double largest_disturbance = 0.1;
   const State before = state;
+  const double penalty_factor_before = results.penalty_factor;
+  const auto multipliers_before =
+      correction ? correction->multipliers() : typename ContactCorrection<dim>::Multipliers();
+  std::optional<Complaint> fault = find_equilibrium(time);
+  if (!fault && correction)
+    fault = correct_contact(time);
+  if (!fault && surface_map && !parameters.contact->penalty_factor)
+    fault = choose_penalty_factor(time);
+  if (!fault)
+    return {};
+  state = before;
+  if (correction)
+    correction->set(multipliers_before);
+  if (results.penalty_factor != penalty_factor_before)
+    set_penalty_factor(penalty_factor_before);
+  return fault;
+}
+
+template <int dim>
+std::optional<Complaint> Simulation<dim>::find_equilibrium(double time)
+{
+  constexpr double largest_disturbance = 0.1;
   const double share = state.time / std::get<QuasiStaticParameters>(parameters.solver).end_time;
   const unsigned int n_before = quasi_static_solver->n_iterations();
   const bool is_solved = quasi_static_solver->solve(
@@ -54,9 +75,7 @@ std::optional<Complaint> Simulation<dim>::solve_load_step(double time)
                 fmt::format("points of integration that follow the bodies around change the forces by {:.1g}",
                             disturbance))
                 .advise("refine, or set Contact/Integration = face quadrature");
-  if (fault)
-    state = before;
-  else if (disturbance > 0.)
+  if (!fault && disturbance > 0.)
     progress.say(fmt::format(
         "load {:.5g}: points of integration follow the bodies around, which leaves an error of {:.1e} of the "
         "forces",

@@ -27,10 +27,9 @@ void Simulation<dim>::print_plan()
   for (const LeftOutPart &part : results.parts_left_out)
     progress.say(fmt::format("Left out: {} ({})", part.name, part.reason));
   if (results.has_contact)
-    progress.say(
-        fmt::format("Contact: alpha = {}, k_A = {:.4g} Pa/m at most where surfaces are near, {} facets",
-                    parameters.contact->penalty_factor, results.contact.max_stiffness,
-                    surface_map->surface().facets.size()));
+    progress.say(fmt::format(
+        "Contact: alpha = {}, k_A = {:.4g} Pa/m at most where surfaces are near, {} facets",
+        results.penalty_factor, results.contact.max_stiffness, surface_map->surface().facets.size()));
   if (const auto *quasi_static = std::get_if<QuasiStaticParameters>(&parameters.solver))
     progress.say(
         fmt::format("Quasi-static: {} load steps to {}", quasi_static->load_steps, quasi_static->end_time));
@@ -109,6 +108,8 @@ void Simulation<dim>::gather_nodal_pressures()
   {
     const std::vector<SpatialVector<dim>> nodal_forces = term->nodal_forces();
     const std::vector<double> areas = term->nodal_areas();
+    for (const double pressure : term->projected_pressures())
+      results.max_projected_pressure = std::max(results.max_projected_pressure, pressure);
     const double largest_area = areas.empty() ? 0. : *std::max_element(areas.begin(), areas.end());
     for (unsigned int node = 0; node < areas.size(); ++node)
       if (areas[node] > 1e-9 * largest_area)

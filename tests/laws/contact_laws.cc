@@ -35,7 +35,8 @@ std::vector<Case> make_cases()
     for (unsigned int degree : {1, 2})
       for (Target target : {Target::body, Target::plane, Target::sphere})
         for (Integration integration : {Integration::face_quadrature, Integration::face_segments})
-          cases.push_back({dim, degree, target, integration});
+          for (Multipliers multipliers : {Multipliers::none, Multipliers::given})
+            cases.push_back({dim, degree, target, integration, multipliers});
   return cases;
 }
 

@@ -18,19 +18,27 @@ enum class Target
   sphere
 };
 
+enum class Multipliers
+{
+  none,
+  given ///< random ones, about as large as the pressures of the overlap
+};
+
 struct Case
 {
   int dim;
   unsigned int degree;
   Target target;
   contact::Integration integration;
+  Multipliers multipliers = Multipliers::none;
 };
 
 inline std::ostream &operator<<(std::ostream &out, const Case &c)
 {
   const std::array<const char *, 3> targets{"Body", "Plane", "Sphere"};
   return out << "Dim" << c.dim << "Degree" << c.degree << targets[static_cast<std::size_t>(c.target)]
-             << (c.integration == contact::Integration::face_quadrature ? "Quadrature" : "Segments");
+             << (c.integration == contact::Integration::face_quadrature ? "Quadrature" : "Segments")
+             << (c.multipliers == Multipliers::given ? "Multipliers" : "");
 }
 
 /// A bent box pressed a little into another bent box of other mesh and material, or into an obstacle.
@@ -44,6 +52,7 @@ struct PotentialScene
   typename contact::ContactPotential<dim>::Obstacles obstacles;
   contact::PotentialSettings settings;
   unsigned int moving_body;
+  NodalPressures<dim> multipliers;
 
   explicit PotentialScene(const Case &c, unsigned int n_faces = 2, double bend = .02) : moving_body(0)
   {
@@ -71,6 +80,13 @@ struct PotentialScene
     settings.damping_ratio = .3;
     if (c.integration == contact::Integration::face_segments)
       settings.n_quadrature_points = 2; // there are many segments
+    if (c.multipliers == Multipliers::given)
+      for (const Facet<dim> &facet : surface.facets)
+      {
+        multipliers.emplace_back();
+        for (double &pressure : multipliers.back())
+          pressure = .1 * facet.youngs_modulus * std::abs(random.vector(1.)[0]);
+      }
   }
 
   /// Turns and shifts all there is.
@@ -91,7 +107,12 @@ struct PotentialScene
       obstacles.push_back(std::make_shared<RigidSphere<dim>>("ball", rotation * middle + shift, .53));
   }
 
-  contact::ContactPotential<dim> make_potential() const { return {surface, obstacles, settings}; }
+  contact::ContactPotential<dim> make_potential() const
+  {
+    contact::ContactPotential<dim> potential(surface, obstacles, settings);
+    potential.set_multipliers(multipliers);
+    return potential;
+  }
 
   /// Moves every node of the moving body by `shift`.
   Positions<dim> moved(const SpatialVector<dim> &shift) const

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
+#include "signorini/adaptivity/boundary_faces.h"
 #include "signorini/adaptivity/error_estimate.h"
 #include "signorini/adaptivity/stress_recovery.h"
 #include "signorini/discretization/surface_map.h"
@@ -30,27 +31,15 @@ public:
   /// Of `state`, which the forces must have been updated to (collective).
   ErrorEstimate estimate(const State &state);
 
-private:
-  /// A boundary face of an own cell.
-  struct BoundaryFace
-  {
-    unsigned int cell = 0;
-    unsigned int body = 0;
-    unsigned int boundary_id = 0;            ///< see global_boundary_id()
-    std::vector<unsigned int> nodes;         ///< of the cell
-    std::vector<SpatialVector<dim>> normals; ///< one a node
-    std::vector<dealii::Point<dim>> positions;
-    unsigned int facet = 0;                ///< scenes with contact: that of the contact surface
-    std::vector<unsigned int> facet_nodes; ///< the facet's nodes, one a node
-  };
+  /// Of all contact, [facet][node of the facet], non-zero for this rank's facets only [Pa].
+  NodalPressures<dim> contact_pressures() const;
 
-  void collect_boundary_faces();
-  void join_facets();
-  using FacetPressures = std::vector<std::array<double, Facet<dim>::max_n_nodes>>;
-  void balance_tractions(const BoundaryFace &face, double time, const FacetPressures &pressures,
+  const std::vector<BoundaryFace<dim>> &boundary_faces() const { return faces; }
+
+private:
+  void balance_tractions(const BoundaryFace<dim> &face, double time, const NodalPressures<dim> &pressures,
                          std::vector<Eigen::Matrix3d> &nodal) const;
-  SpatialVector<dim> load_traction(const BoundaryFace &face, unsigned int node, double time) const;
-  FacetPressures gather_pressures() const;
+  SpatialVector<dim> load_traction(const BoundaryFace<dim> &face, unsigned int node, double time) const;
   void find_unseen_contact(const State &state, ErrorEstimate &result) const;
   double squared_error(unsigned int cell, const std::vector<Eigen::Matrix3d> &nodal,
                        const Eigen::Matrix3d *point_stresses) const;
@@ -60,6 +49,6 @@ private:
   const SceneForces<dim> *forces;
   const SurfaceMap<dim> *map;
   StressRecovery<dim> recovery;
-  std::vector<BoundaryFace> faces; ///< in the order of their cells
+  std::vector<BoundaryFace<dim>> faces;
 };
 } // namespace signorini

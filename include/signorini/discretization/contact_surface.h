@@ -33,6 +33,11 @@ struct Facet
   unsigned int n_nodes() const { return dim == 2 ? degree + 1 : (degree + 1) * (degree + 1); }
 };
 
+/// Pressures at the nodes of every facet, [facet][node of the facet] [Pa]; a node's may differ from facet to
+/// facet.
+template <int dim>
+using NodalPressures = std::vector<std::array<double, Facet<dim>::max_n_nodes>>;
+
 /// The outer faces of all bodies of a scene, as the contact module sees them: facets on nodes, nothing of the
 /// elements behind. Every rank holds all facets; `Facet::owned` says which ones it integrates over.
 template <int dim>

@@ -11,6 +11,7 @@
 
 #include <array>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -76,6 +77,8 @@ struct Results
   double memory_peak_mb = 0.;
 
   bool has_contact = false;
+  double penalty_factor = 0.;                 ///< α, at the end
+  std::optional<double> correction_change;    ///< of the pressures in the last step of correction, relative
   contact::ContactMeasures<dim> contact;      ///< of all contact terms at the end
   double max_penetration = 0.;                ///< of the whole run [m]
   double max_penetration_over_thickness = 0.; ///< of the whole run
@@ -86,6 +89,7 @@ struct Results
   std::vector<contact::ContactSample<dim>> samples;
   std::vector<unsigned int> sample_bodies;
   std::vector<double> sample_thicknesses;
+  double max_projected_pressure = 0.;  ///< at the end, see ContactForce::projected_pressures() [Pa]
   std::vector<double> nodal_pressures; ///< nodal force over undeformed nodal area, where there is one [Pa]
 
   bool has_ledger = false; ///< explicit runs; `energy` of others holds elastic and contact only

@@ -130,6 +130,13 @@ struct DampingParameters
   double damping_ratio = 0.; ///< ξ ≥ 0
 };
 
+/// `subsection Correction` in `subsection Contact`.
+struct CorrectionParameters
+{
+  double tolerance = 1e-4;     ///< largest change of the pressures from step to step, relative
+  unsigned int max_steps = 30; ///< in one load step
+};
+
 /// `subsection Contact`.
 struct ContactParameters
 {
@@ -139,13 +146,15 @@ struct ContactParameters
     face_quadrature,
     face_segments
   };
-  double penalty_factor = 10.; ///< α > 0
+  std::optional<double> penalty_factor = 10.; ///< α > 0; none: chosen by the estimated errors
+  double contact_share = 0.25; ///< of the error by contact in that of discretisation, for the choice of α
   Integration integration = Integration::automatic;
   unsigned int quadrature_points = 3; ///< a direction
   std::vector<std::pair<std::string, std::string>>
       excluded_pairs; ///< names of two bodies, or a body and an obstacle
   bool allow_initial_overlap = false;
   std::optional<DampingParameters> damping;
+  std::optional<CorrectionParameters> correction; ///< quasi-static runs
 };
 
 /// `subsection Quasi-static`.

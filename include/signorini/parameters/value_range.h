@@ -26,7 +26,7 @@ struct ValueRange
   bool upper_excluded = false;
   unsigned int min_components = 1; ///< integers and numbers: how many, separated by commas
   unsigned int max_components = 1;
-  std::vector<std::string> choices;
+  std::vector<std::string> choices; ///< numbers: words that may stand instead
 
   bool contains(const std::string &value) const;
   std::string description() const;
@@ -49,6 +49,8 @@ ValueRange number_between(double lower, double upper);
 /// Lower end excluded.
 ValueRange number_above_up_to(double lower, double upper);
 ValueRange integer_from(long lower, long upper);
+/// `range`, or a word instead.
+ValueRange or_word(ValueRange range, const std::string &word);
 /// `range` for each of min to max components separated by commas.
 ValueRange list_of(ValueRange range, unsigned int min_components, unsigned int max_components);
 } // namespace signorini

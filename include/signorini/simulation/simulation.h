@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
+#include "signorini/adaptivity/contact_correction.h"
 #include "signorini/adaptivity/error_estimator.h"
 #include "signorini/base/exceptions.h"
 #include "signorini/base/run_time.h"
@@ -52,6 +53,11 @@ private:
   void run_explicit(const ExplicitParameters &solver_parameters);
   /// Returns why there is none, with the state as it was.
   std::optional<Complaint> solve_load_step(double time);
+  /// The parts of solve_load_step(); they return why they failed.
+  std::optional<Complaint> find_equilibrium(double time);
+  std::optional<Complaint> correct_contact(double time);
+  std::optional<Complaint> choose_penalty_factor(double time);
+  void set_penalty_factor(double penalty_factor);
   void record_explicit(const ExplicitSolver<dim> &solver, double time_step, double end_time);
   void record_quasi_static();
   /// Refines the mesh and finds the equilibrium anew until the estimated error or the cycles end it.
@@ -107,6 +113,7 @@ private:
   std::vector<bool> is_body_held;
 
   std::unique_ptr<ErrorEstimator<dim>> estimator;
+  std::unique_ptr<ContactCorrection<dim>> correction;          ///< null unless the file asks for it
   std::unique_ptr<QuasiStaticSolver<dim>> quasi_static_solver; ///< quasi-static runs
   std::unique_ptr<Fields<dim>> fields;
   std::unique_ptr<Statistics> statistics; ///< on rank 0

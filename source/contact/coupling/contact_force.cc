@@ -188,10 +188,55 @@ std::vector<unsigned int> ContactForce<dim>::unseen_contact(const State &state) 
 }
 
 template <int dim>
-std::vector<std::array<double, Facet<dim>::max_n_nodes>> ContactForce<dim>::facet_pressures() const
+double ContactForce<dim>::set_penalty_factor(double penalty_factor)
+{
+  return dealii::Utilities::MPI::sum(potential.set_penalty_factor(penalty_factor), communicator);
+}
+
+template <int dim>
+std::array<double, Facet<dim>::max_n_nodes> ContactForce<dim>::hat_areas(const Facet<dim> &facet) const
+{
+  std::array<double, Facet<dim>::max_n_nodes> areas{};
+  const auto nodes = contact::gather_nodes(facet, map->surface().reference_positions);
+  for (const auto &point : contact::make_gauss_points<dim>(3))
+  {
+    const double area = point.weight * contact::evaluate_facet_frame(nodes, point.xi).area_normal.norm();
+    for (unsigned int i = 0; i < facet.n_nodes(); ++i)
+      areas[i] += area * contact::evaluate_hat_function(facet, i, point.xi);
+  }
+  return areas;
+}
+
+template <int dim>
+std::vector<double> ContactForce<dim>::projected_pressures() const
 {
   const ContactSurface<dim> &surface = map->surface();
-  std::vector<std::array<double, Facet<dim>::max_n_nodes>> pressures(surface.facets.size());
+  const NodalPressures<dim> of_facets = facet_pressures();
+  std::vector<double> sums(2 * surface.n_nodes(), 0.); // force and area of each node
+  for (unsigned int f = 0; f < surface.facets.size(); ++f)
+  {
+    const Facet<dim> &facet = surface.facets[f];
+    if (!facet.owned)
+      continue;
+    const auto areas = hat_areas(facet);
+    for (unsigned int i = 0; i < facet.n_nodes(); ++i)
+    {
+      sums[2 * facet.nodes[i]] += areas[i] * of_facets[f][i];
+      sums[2 * facet.nodes[i] + 1] += areas[i];
+    }
+  }
+  MPI_Allreduce(MPI_IN_PLACE, sums.data(), static_cast<int>(sums.size()), MPI_DOUBLE, MPI_SUM, communicator);
+  std::vector<double> pressures;
+  for (unsigned int node = 0; node < surface.n_nodes(); ++node)
+    pressures.push_back(sums[2 * node] / sums[2 * node + 1]);
+  return pressures;
+}
+
+template <int dim>
+NodalPressures<dim> ContactForce<dim>::facet_pressures() const
+{
+  const ContactSurface<dim> &surface = map->surface();
+  NodalPressures<dim> pressures(surface.facets.size());
   for (auto &of_facet : pressures)
     of_facet.fill(0.);
   for (const contact::ContactSample<dim> &sample : potential.samples())
@@ -201,21 +246,12 @@ std::vector<std::array<double, Facet<dim>::max_n_nodes>> ContactForce<dim>::face
       pressures[sample.facet][i] +=
           contact::evaluate_hat_function(facet, i, sample.xi) * sample.full_area * sample.pressure;
   }
-  const auto points = contact::make_gauss_points<dim>(3);
   for (unsigned int f = 0; f < surface.facets.size(); ++f)
   {
-    const Facet<dim> &facet = surface.facets[f];
-    if (!facet.owned)
+    if (!surface.facets[f].owned)
       continue;
-    const auto nodes = contact::gather_nodes(facet, surface.reference_positions);
-    std::array<double, Facet<dim>::max_n_nodes> areas{};
-    for (const auto &point : points)
-    {
-      const double area = point.weight * contact::evaluate_facet_frame(nodes, point.xi).area_normal.norm();
-      for (unsigned int i = 0; i < facet.n_nodes(); ++i)
-        areas[i] += area * contact::evaluate_hat_function(facet, i, point.xi);
-    }
-    for (unsigned int i = 0; i < facet.n_nodes(); ++i)
+    const auto areas = hat_areas(surface.facets[f]);
+    for (unsigned int i = 0; i < surface.facets[f].n_nodes(); ++i)
       pressures[f][i] /= areas[i];
   }
   return pressures;

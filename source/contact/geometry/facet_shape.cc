@@ -93,17 +93,26 @@ FacetFrame<dim> evaluate_facet_frame(const FacetNodes<dim> &nodes, const LocalPo
 }
 
 template <int dim>
+LocalPoint<dim> node_coordinates(const Facet<dim> &facet, unsigned int i)
+{
+  LocalPoint<dim> xi;
+  for (int d = 0; d < dim - 1; ++d)
+    xi[d] = static_cast<double>(d == 0 ? i % (facet.degree + 1) : i / (facet.degree + 1)) / facet.degree;
+  return xi;
+}
+
+template <int dim>
 double evaluate_hat_function(const Facet<dim> &facet, unsigned int i, const LocalPoint<dim> &xi)
 {
+  const LocalPoint<dim> node = node_coordinates(facet, i);
   double value = 1.;
   for (int d = 0; d < dim - 1; ++d)
-  {
-    const unsigned int index = d == 0 ? i % (facet.degree + 1) : i / (facet.degree + 1);
-    value *= std::max(0., 1. - std::abs(facet.degree * xi[d] - index));
-  }
+    value *= std::max(0., 1. - facet.degree * std::abs(xi[d] - node[d]));
   return value;
 }
 
+template LocalPoint<2> node_coordinates(const Facet<2> &, unsigned int);
+template LocalPoint<3> node_coordinates(const Facet<3> &, unsigned int);
 template double evaluate_hat_function(const Facet<2> &, unsigned int, const LocalPoint<2> &);
 template double evaluate_hat_function(const Facet<3> &, unsigned int, const LocalPoint<3> &);
 template FacetShape<2> evaluate_facet_shape<2>(unsigned int, const LocalPoint<2> &);

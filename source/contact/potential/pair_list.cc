@@ -132,6 +132,7 @@ void PairList<dim>::keep_coefficients(const Pairs &old_pairs)
     {
       pair.stiffness = old_pair->second->stiffness;
       pair.damping = old_pair->second->damping;
+      set_offset(pair);
     }
   }
 }
@@ -268,6 +269,43 @@ void PairList<dim>::set_coefficients(ContactPair<dim> &pair, const FacetPoint &p
   if (settings_.damping_ratio)
     pair.damping =
         2. * *settings_.damping_ratio * std::sqrt(pair.stiffness * compute_layer_mass(contactor, target));
+  set_offset(pair);
+}
+
+template <int dim>
+void PairList<dim>::set_offset(ContactPair<dim> &pair) const
+{
+  pair.offset = 0.;
+  if (multipliers.empty())
+    return;
+  for (unsigned int a = 0; a < surface.facets[pair.facet].n_nodes(); ++a)
+    pair.offset += pair.shape[a] * multipliers[pair.facet][a];
+  // Between the nodes of a quadratic facet the interpolation may undershoot.
+  pair.offset = std::max(pair.offset, 0.) / pair.stiffness;
+}
+
+template <int dim>
+void PairList<dim>::set_multipliers(NodalPressures<dim> new_multipliers)
+{
+  multipliers = std::move(new_multipliers);
+  for (Pairs *pairs : {&body_pairs_, &obstacle_pairs_})
+    for (ContactPair<dim> &pair : *pairs)
+      set_offset(pair);
+}
+
+template <int dim>
+void PairList<dim>::set_penalty_factor(double penalty_factor)
+{
+  const double ratio = penalty_factor / settings_.penalty_factor;
+  settings_.penalty_factor = penalty_factor;
+  check_input();
+  for (Pairs *pairs : {&body_pairs_, &obstacle_pairs_})
+    for (ContactPair<dim> &pair : *pairs)
+    {
+      pair.stiffness *= ratio;
+      pair.damping *= std::sqrt(ratio);
+      set_offset(pair);
+    }
 }
 
 template class PairList<2>;

@@ -92,10 +92,20 @@ LocalTensor<dim> compute_local_hessian(const PairFoot<dim> &foot, const TargetJe
 } // namespace
 
 template <int dim>
-void compute_body_tangent(const ContactPair<dim> &pair, const PairFoot<dim> &foot,
+void compute_body_tangent(const ContactPair<dim> &pair, const PairFoot<dim> &found_foot,
                           const PairStencil<dim> &stencil, const FacetNodes<dim> &target,
                           Eigen::MatrixXd &block)
 {
+  // At depth 0 the quotient (d + o)/d is taken along the normal beside it, where the curvature is the same.
+  const double overlap = found_foot.depth + pair.offset;
+  PairFoot<dim> foot = found_foot;
+  if (pair.offset != 0. && std::abs(foot.depth) < 1e-7 * std::abs(overlap))
+  {
+    foot.depth = 1e-7 * overlap;
+    foot.gap = -foot.depth * foot.normal;
+  }
+  const double ratio = pair.offset != 0. ? overlap / foot.depth : 1.;
+
   const TargetJet<dim> jet = evaluate_jet(target, foot.closest.xi);
   Coupling<dim> coupling = compute_coupling(foot, stencil, jet);
   LocalTensor<dim> hessian = compute_local_hessian(foot, jet);
@@ -112,13 +122,15 @@ void compute_body_tangent(const ContactPair<dim> &pair, const PairFoot<dim> &foo
     }
   }
 
-  set_product_block<dim>(stencil, SpatialTensor<dim>::Identity(), block);
+  const SpatialTensor<dim> along_normal = foot.normal * foot.normal.transpose();
+  set_product_block<dim>(stencil, ratio * SpatialTensor<dim>::Identity() + (1. - ratio) * along_normal,
+                         block);
   // At a centre of curvature the foot is not unique and the Hessian has no finite value: leave out its soft
   // part.
   if (hessian.determinant() > 1e-12 * size)
   {
     const LocalTensor<dim> inverse = hessian.inverse();
-    block.noalias() -= coupling * (inverse * coupling.transpose());
+    block.noalias() -= ratio * coupling * (inverse * coupling.transpose());
   }
   block *= pair.area * pair.stiffness;
 }
@@ -128,7 +140,8 @@ void compute_obstacle_tangent(const ContactPair<dim> &pair, const PairFoot<dim> 
                               const PairStencil<dim> &stencil, const SpatialTensor<dim> &depth_hessian,
                               Eigen::MatrixXd &block)
 {
-  const SpatialTensor<dim> hessian = foot.normal * foot.normal.transpose() + foot.depth * depth_hessian;
+  const SpatialTensor<dim> hessian =
+      foot.normal * foot.normal.transpose() + (foot.depth + pair.offset) * depth_hessian;
   set_product_block<dim>(stencil, pair.area * pair.stiffness * hessian, block);
 }
 

@@ -56,12 +56,25 @@ public:
 
   /// Pressure at the nodes of this rank's facets, [facet][node of the facet], as the facet's own points have
   /// it: ∫ p N dA / ∫ N dA with N the hat functions of the facet's nodes [Pa].
-  std::vector<std::array<double, Facet<dim>::max_n_nodes>> facet_pressures() const;
+  NodalPressures<dim> facet_pressures() const;
+
+  /// The same over all facets at a node of the surface, [node], on every rank [Pa] (collective). It takes
+  /// the noise out of single points and sums up to the resultant.
+  std::vector<double> projected_pressures() const;
+
+  /// See PairList::set_penalty_factor(). Returns the jump of the stored energy over all ranks [J]
+  /// (collective).
+  double set_penalty_factor(double penalty_factor);
+
+  /// See PairList::set_multipliers(); of this rank's facets.
+  void set_multipliers(const NodalPressures<dim> &multipliers) { potential.set_multipliers(multipliers); }
 
   /// This rank's points.
   std::vector<contact::ContactSample<dim>> samples() const;
 
 private:
+  /// ∫ N dA over the undeformed facet, for its hat functions N [m²; m in 2-D].
+  std::array<double, Facet<dim>::max_n_nodes> hat_areas(const Facet<dim> &facet) const;
   std::vector<SpatialVector<dim>> positions(const State &state) const;
 
   const SurfaceMap<dim> *map;

@@ -23,6 +23,10 @@ struct FacetShape
 template <int dim>
 FacetShape<dim> evaluate_facet_shape(unsigned int degree, const LocalPoint<dim> &xi);
 
+/// Local coordinates of node i of a facet.
+template <int dim>
+LocalPoint<dim> node_coordinates(const Facet<dim> &facet, unsigned int i);
+
 /// The piecewise linear function that is 1 at node i of a facet and 0 at its other nodes: nowhere negative,
 /// and over the nodes they sum to 1.
 template <int dim>

@@ -19,6 +19,7 @@ struct ContactPair
   std::array<double, Facet<dim>::max_n_nodes> shape{}; ///< the contactor's shape functions there
   double area = 0.;               ///< A_q: undeformed area the point counts with [m²; m in 2-D]
   double stiffness = 0.;          ///< k_A [Pa/m]
+  double offset = 0.;             ///< λ/k_A of the point's multiplier, added to its depth [m]
   double damping = 0.;            ///< 2ξ√(k_A m_A) [Pa s/m]
   double distance_when_made = 0.; ///< of the point from the target's surface [m]
 };
@@ -34,8 +35,6 @@ struct PairFoot
   unsigned int facet = 0;                                  ///< bodies only: the target's closest facet, …
   ClosestPoint<dim> closest;                               ///< … the foot on it …
   std::array<double, Facet<dim>::max_n_nodes> shape{};     ///< … and its shape functions there
-
-  bool is_active() const { return depth > 0.; }
 };
 
 /// The nodes a pair acts on, with weights B so that g = Σ_a B_a x_a (+ a point fixed in space, for

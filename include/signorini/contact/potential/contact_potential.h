@@ -4,13 +4,17 @@
 #include "signorini/contact/potential/contact_measures.h"
 #include "signorini/contact/potential/pair_list.h"
 
+#include <algorithm>
 #include <functional>
 
 namespace signorini::contact
 {
 /// The surface contact potential of a scene,
 ///
-///   W(x) = Σ_q A_q ½ k_A,q d_q²   over points q with depth d_q > 0,      k_A = α / (h_c/E_c + h_t/E_t),
+///   W(x) = Σ_q A_q ½ k_A,q (d_q + o_q)²   over points q with d_q + o_q > 0,   k_A = α / (h_c/E_c + h_t/E_t),
+///
+/// with the depths d_q and the offsets o_q = λ_q/k_A,q of the multipliers, which are 0 unless
+/// set_multipliers() was called: a point presses with λ_q where nothing overlaps.
 ///
 /// and its exact derivatives. Points q lie on the faces of every deformable body (its undeformed area
 /// measures A_q); where the other side is deformable too, both sides are sampled and each counts half, so
@@ -49,6 +53,13 @@ public:
   /// Finds the feet of all points. Everything below speaks of these positions.
   void evaluate(const Positions &positions);
 
+  /// See PairList::set_penalty_factor(). Returns the jump of the stored energy [J], 0 before the first
+  /// update().
+  double set_penalty_factor(double penalty_factor);
+
+  /// See PairList::set_multipliers(); the energy is another one afterwards.
+  void set_multipliers(NodalPressures<dim> multipliers);
+
   double energy() const; ///< [J]
 
   /// Adds −∂W/∂x.
@@ -83,8 +94,8 @@ public:
 
   ContactMeasures<dim> measure() const;
 
-  /// Σ_q A_q k_A d_q² over the points of each facet, [facet]: twice the stored energy, the square of what the
-  /// penalty leaves of the error in the energy norm [J; J/m in 2-D].
+  /// Σ_q A_q (p_q − λ_q)²/k_A over the points of each facet, [facet], = A_q k_A d_q² for those in contact:
+  /// the square of what the penalty leaves of the error in the energy norm [J; J/m in 2-D].
   std::vector<double> facet_errors() const;
 
   /// Resultants by pair; with the damping of these velocities of the nodes, unless there are none.
@@ -108,14 +119,32 @@ private:
     const PairFoot<dim> &foot;
     const Facet<dim> *target;
     PairStencil<dim> stencil;
+
+    double overlap() const { return foot.depth + pair.offset; }
+    double pressure() const { return pair.stiffness * std::max(overlap(), 0.); }
+    SpatialVector<dim> force() const { return pair.area * pressure() * foot.normal; }
   };
 
-  /// Calls `visit(NearPair)` for all pairs deeper than `least_depth`.
+  /// Calls `visit(NearPair)` for all pairs that overlap, with their offset, by more than `least`.
   template <typename Visit>
-  void for_each_pair_deeper_than(double least_depth, const Visit &visit) const;
-
-  NearPair make_near_pair(const ContactPair<dim> &pair, const PairFoot<dim> &foot,
-                          bool has_target_facet) const;
+  void for_each_overlap_above(double least, const Visit &visit) const
+  {
+    const auto visit_all = [&](const auto &list, const auto &feet, bool has_target_facet)
+    {
+      for (std::size_t i = 0; i < feet.size(); ++i)
+      {
+        if (!(feet[i].depth + list[i].offset > least))
+          continue;
+        NearPair near{list[i], feet[i], has_target_facet ? &surface.facets[feet[i].facet] : nullptr, {}};
+        near.stencil.add(surface.facets[list[i].facet], list[i].shape, 1.);
+        if (has_target_facet)
+          near.stencil.add(*near.target, feet[i].shape, -1.);
+        visit(near);
+      }
+    };
+    visit_all(pairs.body_pairs(), body_feet, true);
+    visit_all(pairs.obstacle_pairs(), obstacle_feet, false);
+  }
 
   void evaluate_body_pairs();
   void evaluate_obstacle_pairs();

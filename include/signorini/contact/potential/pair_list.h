@@ -50,6 +50,13 @@ public:
   /// A bound of how much the distance between any point and any surface changed since the last renewal [m].
   double bound_motion(const Positions &positions) const;
 
+  /// Changes α, and with it k_A and the damping of all pairs.
+  void set_penalty_factor(double penalty_factor);
+
+  /// Pressures λ ≥ 0 that the points of each facet start from, [facet][node of the facet] [Pa], also for
+  /// pairs still to be made. Empty: none.
+  void set_multipliers(NodalPressures<dim> new_multipliers);
+
   /// The foot of `x`, a point of the pair's contactor, on its target body, no farther than `cutoff`.
   SurfaceFoot<dim> find_body_foot(const ContactPair<dim> &pair, const Positions &positions,
                                   const SpatialVector<dim> &x, double cutoff) const;
@@ -86,6 +93,7 @@ private:
 
   /// Area, stiffness and damping; `target` is null for an obstacle.
   void set_coefficients(ContactPair<dim> &pair, const FacetPoint &point, const Facet<dim> *target) const;
+  void set_offset(ContactPair<dim> &pair) const;
 
   const ContactSurface<dim> &surface;
   Obstacles obstacles_;
@@ -96,6 +104,7 @@ private:
   std::array<FacetPoints, 2> gauss_points; ///< of facets of degree 1 and 2
   NeighbourList<dim> neighbour_list;
 
+  NodalPressures<dim> multipliers;
   Pairs body_pairs_;
   Pairs obstacle_pairs_;
   Positions positions_at_renewal;

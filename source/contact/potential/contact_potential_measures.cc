@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// What a ContactPotential tells of its points: measures, resultants, samples.
+#include "signorini/contact/potential/contact_potential.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace signorini::contact
+{
+namespace
+{
+/// Cosine from which on a facet counts as facing the other surface.
+constexpr double facing = 0.1;
+} // namespace
+
+template <int dim>
+ContactMeasures<dim> ContactPotential<dim>::measure() const
+{
+  ContactMeasures<dim> measures;
+  measures.resultants.assign(surface.n_bodies, SpatialVector<dim>::Zero());
+  for (const auto *list : {&pairs.body_pairs(), &pairs.obstacle_pairs()})
+    for (const ContactPair<dim> &pair : *list)
+    {
+      ++measures.n_pairs;
+      measures.max_stiffness = std::max(measures.max_stiffness, pair.stiffness);
+    }
+  for_each_overlap_above(0., [&](const NearPair &near) { add_to_measures(near, measures); });
+  return measures;
+}
+
+template <int dim>
+void ContactPotential<dim>::add_to_measures(const NearPair &near, ContactMeasures<dim> &measures) const
+{
+  const Facet<dim> &contactor = surface.facets[near.pair.facet];
+  const double depth = near.foot.depth;
+  ++measures.n_active;
+  measures.area += near.pair.area;
+  measures.max_penetration = std::max(measures.max_penetration, depth);
+  measures.max_pressure = std::max(measures.max_pressure, near.pressure());
+  const double thickness = near.target == nullptr ? contactor.layer_thickness
+                                                  : std::min(contactor.layer_thickness, near.target->room);
+  if (depth / thickness > measures.max_penetration_over_thickness)
+  {
+    measures.max_penetration_over_thickness = depth / thickness;
+    measures.deepest_facet = near.pair.facet;
+    measures.deepest_position = near.foot.position;
+  }
+
+  const SpatialVector<dim> force = near.force();
+  measures.resultants[contactor.body] += force;
+  if (near.target != nullptr)
+    measures.resultants[near.target->body] -= force;
+}
+
+template <int dim>
+PairForces<dim> ContactPotential<dim>::pair_forces(const std::vector<SpatialVector<dim>> &velocities) const
+{
+  PairForces<dim> forces;
+  const bool is_damped = pairs.settings().damping_ratio && !velocities.empty();
+  const auto add = [](typename PairForces<dim>::Table &table, unsigned int one, unsigned int other,
+                      const SpatialVector<dim> &force) {
+    table.try_emplace({one, other}, SpatialVector<dim>::Zero()).first->second += force;
+  };
+  for_each_overlap_above(0.,
+                         [&](const NearPair &near)
+                         {
+                           double pressure = near.pressure();
+                           if (is_damped)
+                             pressure += damping_pressure(near, depth_rate(near, velocities));
+                           const SpatialVector<dim> force = near.pair.area * pressure * near.foot.normal;
+                           const unsigned int body = surface.facets[near.pair.facet].body,
+                                              other = near.pair.target;
+                           if (near.target == nullptr)
+                             add(forces.obstacles, body, other, force);
+                           else if (body < other)
+                             add(forces.bodies, body, other, force);
+                           else
+                             add(forces.bodies, other, body, -force);
+                         });
+  return forces;
+}
+
+template <int dim>
+std::vector<double> ContactPotential<dim>::facet_errors() const
+{
+  // A multiplier that is larger than the pressure is an error as well, so all points count.
+  std::vector<double> errors(surface.facets.size(), 0.);
+  const auto add = [&errors](const auto &list, const auto &feet)
+  {
+    for (std::size_t i = 0; i < feet.size(); ++i)
+      errors[list[i].facet] +=
+          list[i].area * list[i].stiffness * std::pow(std::max(feet[i].depth, -list[i].offset), 2);
+  };
+  add(pairs.body_pairs(), body_feet);
+  add(pairs.obstacle_pairs(), obstacle_feet);
+  return errors;
+}
+
+template <int dim>
+std::vector<bool> ContactPotential<dim>::active_facets() const
+{
+  std::vector<bool> is_active(surface.facets.size(), false);
+  for_each_overlap_above(0., [&](const NearPair &near) { is_active[near.pair.facet] = true; });
+  return is_active;
+}
+
+template <int dim>
+std::vector<ContactSample<dim>> ContactPotential<dim>::samples() const
+{
+  std::vector<ContactSample<dim>> all;
+  for_each_overlap_above(
+      -pairs.skin(),
+      [&](const NearPair &near)
+      {
+        const FacetNodes<dim> contactor = gather_nodes(surface.facets[near.pair.facet], evaluated_positions);
+        const auto frame = evaluate_facet_frame(contactor, near.pair.xi);
+        if (frame.area_normal.dot(near.foot.normal) > -facing * frame.area_normal.norm())
+          return;
+        const double depth = near.foot.depth;
+        all.push_back({near.pair.facet, near.pair.xi, near.foot.position, depth, near.pressure(),
+                       near.pair.area, (near.target != nullptr ? 2. : 1.) * near.pair.area});
+      });
+  return all;
+}
+
+template class ContactPotential<2>;
+template class ContactPotential<3>;
+} // namespace signorini::contact
