@@ -3,6 +3,8 @@
 from . import page
 from .page import count, duration, is_number, percent, significant, text
 
+CLEAR = 0.9  # fits with a smaller R² are shown in grey
+
 
 def compose(run, figures, omissions):
     summary = run.summary
@@ -50,15 +52,19 @@ def orders_tables(study):
 def orders_table(title, orders, state):
     if not orders:
         return ""
-    rows = "".join(
-        f'<tr><td>{text(order["quantity"])}</td><td>{text(order["in"].replace("alpha", "α"))}</td>'
-        f'<td>{text(settings_text(order["settings"]))}</td><td class="number">{order["order"]:.3f}</td>'
-        f'<td class="number">{order["standard_error"]:.3f}</td><td class="number">{order["r_squared"]:.4f}</td>'
-        f'<td class="number">{order["n_points"]}</td></tr>' for order in orders)
+    rows = "".join(order_row(order) for order in orders)
     return (f'<details class="card" {state}><summary>{text(title)}</summary>'
             "<table><tr><th>error of</th><th>in</th><th>at</th>"
             '<th class="number">order</th><th class="number">± standard error</th><th class="number">R²</th>'
             f'<th class="number">points</th></tr>{rows}</table></details>')
+
+
+def order_row(order):
+    look = "" if order["r_squared"] > CLEAR else ' class="note"'
+    return (f'<tr{look}><td>{text(order["quantity"])}</td><td>{text(order["in"].replace("alpha", "α"))}</td>'
+            f'<td>{text(settings_text(order["settings"]))}</td><td class="number">{order["order"]:.3f}</td>'
+            f'<td class="number">{order["standard_error"]:.3f}</td><td class="number">{order["r_squared"]:.4f}</td>'
+            f'<td class="number">{order["n_points"]}</td></tr>')
 
 
 def runs_table(study):

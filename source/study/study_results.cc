@@ -133,6 +133,31 @@ void write(const std::string &name, const std::string &text)
     throw FileError("cannot write '" + name + "': is the disk full?");
 }
 
+/// Orders of the quantities that count; of poor fits only how many there are.
+std::vector<std::string> describe_orders(const StudyResults &results)
+{
+  constexpr double clear = 0.9; // of R²
+  const std::vector<std::string> &counted = results.parameters.quantities;
+  std::vector<std::string> lines;
+  unsigned int n_unclear = 0;
+  for (const ObservedOrder &order : results.orders)
+  {
+    if (std::find(counted.begin(), counted.end(), order.quantity) == counted.end())
+      continue;
+    if (order.fit.r_squared < clear)
+      ++n_unclear;
+    else
+      lines.push_back(
+          fmt::format("Order of '{}' in {}{}: {:.3f} ± {:.3f} ({} points, R² {:.4f})", order.quantity,
+                      order.variable, order.others.empty() ? "" : " at " + settings_name(order.others),
+                      order.fit.order, order.fit.standard_error, order.fit.n_points, order.fit.r_squared));
+  }
+  if (n_unclear > 0)
+    lines.push_back(
+        fmt::format("{} further fits show no clear order: their R² is below {}", n_unclear, clear));
+  return lines;
+}
+
 std::string shown_error(const double error)
 {
   return std::isfinite(error) ? fmt::format("{:.2e}", error) : "–";
@@ -216,12 +241,8 @@ std::vector<std::string> describe_study(const StudyResults &results)
                                       is_on_front ? "yes" : "")
                         : fmt::format("{:<{}}  {}", row.name(), width, row.status));
   }
-  for (const ObservedOrder &order : results.orders)
-    if (std::find(study.quantities.begin(), study.quantities.end(), order.quantity) != study.quantities.end())
-      lines.push_back(
-          fmt::format("Order of '{}' in {}{}: {:.3f} ± {:.3f} ({} points, R² {:.4f})", order.quantity,
-                      order.variable, order.others.empty() ? "" : " at " + settings_name(order.others),
-                      order.fit.order, order.fit.standard_error, order.fit.n_points, order.fit.r_squared));
+  for (const std::string &line : describe_orders(results))
+    lines.push_back(line);
   lines.push_back(results.cheapest ? fmt::format("Cheapest run with no error above {}: {}, {:.3g} s",
                                                  study.tolerance, results.rows[*results.cheapest].name(),
                                                  results.rows[*results.cheapest].run_time)
