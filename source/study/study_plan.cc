@@ -83,12 +83,11 @@ public:
     }
   }
 
-  /// Fields are written only if the file says how many, and adaptive refinement ends where the study says.
+  /// What is another default in a study than in a run, and where adaptive refinement ends.
   ParameterText finish()
   {
     place = {"", "", "", text.where("Study"), 0};
-    if (text.find("Output", "Number of fields") == nullptr)
-      set("Output", "Number of fields", "0");
+    set("Output", "Number of fields", std::to_string(parameters.output.n_fields));
     const unsigned int own = parameters.adaptivity.value_or(AdaptivityParameters()).max_n_dofs;
     if (text.find_subsection("Adaptivity") != nullptr)
       set("Adaptivity", "Maximum dofs", std::to_string(std::min(own, parameters.study->max_n_dofs)));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "signorini/study/study_row.h"
 
+#include "signorini/base/exceptions.h"
 #include "signorini/base/version.h"
 #include "signorini/parameters/print_parameters.h"
 #include "signorini/parameters/study_parameters.h"
@@ -8,9 +9,9 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <fstream>
-#include <numeric>
 #include <sstream>
 
 namespace signorini
@@ -74,6 +75,15 @@ std::string content(const std::string &file)
   text << std::ifstream(file).rdbuf();
   return text.str();
 }
+/// What a parameter file says, without its comments: they hold defaults that depend on the name of the input.
+/// Throws InputError.
+std::vector<std::array<std::string, 3>> values_in(const std::string &parameters)
+{
+  std::vector<std::array<std::string, 3>> values;
+  for (const ParameterEntry &entry : scan_parameter_text(parameters, "parameters.prm").entries)
+    values.push_back({entry.path, entry.key, entry.value});
+  return values;
+}
 } // namespace
 
 double StudyRow::error(const std::string &quantity) const
@@ -119,15 +129,19 @@ bool is_finished(const StudyRun &run, const unsigned int n_ranks)
   const std::string &directory = run.parameters.output.directory;
   std::ostringstream used;
   write_parameters_used(run.text, used);
-  if (content(directory + "/parameters.prm") != used.str())
-    return false;
   try
   {
+    if (values_in(content(directory + "/parameters.prm")) != values_in(used.str()))
+      return false;
     const Json summary = Json::parse(content(directory + "/summary.json"));
     return summary.at("status") == "ok" && summary.at("n_ranks") == n_ranks &&
            summary.at("version") == program_version();
   }
   catch (const Json::exception &)
+  {
+    return false;
+  }
+  catch (const InputError &)
   {
     return false;
   }

@@ -93,6 +93,8 @@ class StudyTest(unittest.TestCase):
         after = {path.name: (path / "summary.json").stat().st_mtime_ns for path in runs.iterdir()}
         self.assertEqual([name for name in after if after[name] != before.get(name)], ["uniform-1_alpha-10_repeat-1"])
         self.assertEqual(len(self.summary()["study"]["rows"]), 9)
+        used = self.run_program("--resume", file=self.path / "parameters.prm")
+        self.assertEqual(used.stdout.count("from before"), 9, used.stderr)
         changed = self.run_program(*SMALL, "--resume", "--set", "Body upper/Material/Young's modulus=2e7")
         self.assertEqual(changed.stdout.count("from before"), 0)
         anew = self.run_program(*SMALL)
