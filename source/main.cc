@@ -4,7 +4,7 @@
 #include "signorini/parameters/print_parameters.h"
 #include "signorini/parameters/read_parameters.h"
 #include "signorini/simulation/command_line.h"
-#include "signorini/simulation/run.h"
+#include "signorini/study/run_file.h"
 
 #include <deal.II/base/mpi.h>
 
@@ -28,7 +28,7 @@ int main(int argc, char **argv)
         print_parameters(parameters_format(*command_line.parameters_format), std::cout);
       return 0;
     }
-    run(command_line, MPI_COMM_WORLD);
+    run_file(command_line, MPI_COMM_WORLD);
     return 0;
   }
   catch (const ProgramError &error)

@@ -42,6 +42,10 @@ class Run:
     profile: Table
     parameters: str
 
+    @property
+    def is_study(self):
+        return isinstance(self.summary.get("study"), dict)
+
 
 def read_run(directory):
     summary_file = directory / "summary.json"

@@ -29,6 +29,7 @@ table { border-collapse: collapse; width: 100%; font-variant-numeric: tabular-nu
 th, td { text-align: left; padding: .35rem .8rem .35rem 0; border-bottom: 1px solid var(--line); vertical-align: top; }
 th { color: var(--soft); font-weight: 600; font-size: .85rem; }
 td.number, th.number { text-align: right; }
+td.number, td.name { white-space: nowrap; }
 tr:last-child td { border-bottom: 0; }
 pre { margin: .6rem 0 0; font: 13px/1.45 ui-monospace, "DejaVu Sans Mono", monospace; overflow-x: auto; }
 summary { cursor: pointer; font-weight: 600; }
@@ -47,6 +48,8 @@ ALTERNATIVES = {
     "support_force": "Forces of the supports over the load",
     "largest_pressure": "Largest contact pressure over time or load",
     "run_time": "Seconds by section of the program",
+    "error_time": "Error against run time", "error_dofs": "Error against degrees of freedom",
+    "memory": "Memory against degrees of freedom",
 }
 
 UNITS = {"effective_stiffness": " [Pa/m]", "max_penetration": " [m]", "max_pressure": " [Pa, per undeformed area]",
@@ -63,6 +66,11 @@ def compose(run, figures, omissions):
             errors_table(summary), '<div class="columns">', quantities_table(summary),
             f"<div>{forces_table(summary)}{parts_table(summary)}</div>", "</div>",
             omissions_card(omissions), parameters_card(run.parameters), footer(summary)]
+    return document(title, body)
+
+
+def document(title, body):
+    """The page around its parts; empty ones are left out."""
     return (f'<!DOCTYPE html>\n<html lang="en"><head><meta charset="utf-8">\n'
             f'<meta name="viewport" content="width=device-width, initial-scale=1">\n'
             f"<title>{text(title)}</title>\n<style>{STYLE}</style></head>\n<body><main>\n"

@@ -16,16 +16,17 @@ def make_all(run):
     """Pairs (name, file) of the pictures made, and sentences on those left out."""
     figures, omissions = [], []
     try:
-        from . import curves
+        from . import curves, study_curves
     except ImportError as error:
         return figures, [f"all plots and the picture of the scene: {error} (package python3-matplotlib)."]
     curves.use_style()
-    scene, reason = make_scene(run, curves.plt)
-    if scene:
-        figures.append(("scene", scene))
-    else:
-        omissions.append(f"picture of the scene: {reason}")
-    for name, draw in curves.ALL:
+    if not run.is_study:
+        scene, reason = make_scene(run, curves.plt)
+        if scene:
+            figures.append(("scene", scene))
+        else:
+            omissions.append(f"picture of the scene: {reason}")
+    for name, draw in study_curves.ALL if run.is_study else curves.ALL:
         path = run.directory / f"report_{name}.png"
         path.unlink(missing_ok=True)
         try:

@@ -16,9 +16,9 @@ void remove_earlier_output(const std::string &directory)
   if (!files::exists(folder / "log.txt") || !files::exists(folder / "parameters.prm"))
     return;
   static const std::regex own(
-      "summary\\.json|profile\\.csv|report\\.html|solution\\.pvd|"
+      "summary\\.json|profile\\.csv|study\\.csv|report\\.html|solution\\.pvd|"
       "report_(scene|contact_pressure|contact_force|largest_pressure|penetration|energy|support_force|"
-      "contact_area|run_time)\\.png|"
+      "contact_area|run_time|error_time|error_dofs|memory)\\.png|"
       "solution_[0-9]{4,}(\\.pvtu|\\.[0-9]+\\.vtu)");
   std::vector<files::path> earlier;
   std::error_code failure;

@@ -2,6 +2,7 @@
 #include "signorini/output/exact_solution.h"
 
 #include "signorini/base/exceptions.h"
+#include "signorini/parameters/exact_solution_parameters.h"
 
 #include <algorithm>
 #include <cmath>
@@ -293,6 +294,15 @@ void check_touching(const Results<dim> &results, const Case<dim> &exact)
                                    "'Exact solution'"));
 }
 
+/// A study must know before its first run what it will compare.
+[[maybe_unused]] bool are_known(const std::vector<ErrorRow> &rows, const std::string &name)
+{
+  std::vector<std::string> quantities;
+  for (const ErrorRow &row : rows)
+    quantities.push_back(row.quantity);
+  return quantities == exact_solution_quantities(name);
+}
+
 void check_finite(const std::vector<ErrorRow> &rows, const std::string &name)
 {
   for (const ErrorRow &row : rows)
@@ -313,6 +323,7 @@ std::vector<ErrorRow> compute_errors(const Results<dim> &results)
     {
       check_touching(results, exact);
       const std::vector<ErrorRow> rows = exact.compute(results);
+      Assert(are_known(rows, exact.name), dealii::ExcInternalError());
       check_finite(rows, exact.name);
       return rows;
     }

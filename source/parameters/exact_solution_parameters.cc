@@ -23,12 +23,13 @@ struct ExactSolutionKey
   std::string text;
 };
 
-/// A known exact solution, its numbers and the scenes it holds for.
+/// A known exact solution, its numbers, the scenes it holds for, and what it is compared in.
 struct ExactSolutionCase
 {
   std::string name;
   std::vector<ExactSolutionKey> keys;
   std::vector<SceneNeed> needs;
+  std::vector<std::string> quantities; ///< names of the rows that compute_errors() makes
 };
 
 constexpr const char *displacement_key = "Displacement";
@@ -44,29 +45,43 @@ const std::vector<ExactSolutionCase> &exact_solutions()
   static const ExactSolutionKey pressure{
       "Pressure", positive_number(), "", "Pa",
       "Patch: uniform contact pressure; must be that of the loads at the end time."};
+  static const std::string profile = "pressure profile (relative L2 distance)";
   static const std::vector<ExactSolutionCase> table{
       {"Hertz sphere",
        {radius, fraction},
-       {dimension_equal_to(3), one_touching_pair(), contact(), matching_radius()}},
+       {dimension_equal_to(3), one_touching_pair(), contact(), matching_radius()},
+       {"peak pressure", "contact radius", "approach", profile}},
       {"Hertz cylinder",
        {radius, fraction},
-       {dimension_equal_to(2), one_touching_pair(), contact(), matching_radius()}},
+       {dimension_equal_to(2), one_touching_pair(), contact(), matching_radius()},
+       {"peak pressure", "contact radius", profile}},
       {"Squeezed bars",
        {},
        {quasi_static_run(), number_of_bodies(2), boxes_only(), number_of_obstacles(0), contact(),
-        shifts_only()}},
+        shifts_only()},
+       {"estimated contact error", "penetration over shortening of the surface layers",
+        "contact resultant against the load", "displacement of the loaded end"}},
       {"Patch",
        {pressure},
-       {quasi_static_run(), number_of_bodies(2), contact(), a_load(), matching_pressure()}},
+       {quasi_static_run(), number_of_bodies(2), contact(), a_load(), matching_pressure()},
+       {"contact pressure (worst point)", "projected contact pressure (worst node)",
+        "normal stress (largest)", "normal stress (smallest)", "resultant",
+        "other stresses over the pressure"}},
       {"Bar impact",
        {},
-       {explicit_run(), number_of_bodies(2), equal_boxes(), number_of_obstacles(0), contact(),
-        shifts_only()}},
+       {explicit_run(), number_of_bodies(2), equal_boxes(), number_of_obstacles(0), contact(), shifts_only()},
+       {"momentum exchange (velocity)", "mechanical energy", "contact time",
+        "peak contact force (with the dashpots')"}},
       {"Bounce",
        {},
        {explicit_run(), number_of_bodies(1), boxes_only(), number_of_obstacles(1), planes_only(),
-        contact_damping(), no_grading()}},
-      {"Displacement", {}, {quasi_static_run(), linear_elastic_bodies()}}};
+        contact_damping(), no_grading()},
+       {"restitution", "impulse of the obstacle", "dissipated energy"}},
+      {"Displacement",
+       {},
+       {quasi_static_run(), linear_elastic_bodies()},
+       {"displacement (relative L2 distance)", "strain (relative distance in the energy norm)",
+        "estimated discretization error"}}};
   return table;
 }
 
@@ -94,6 +109,11 @@ std::string list_needs(const ExactSolutionCase &entry)
   return join(needs, "; ");
 }
 } // namespace
+
+std::vector<std::string> exact_solution_quantities(const std::string &name)
+{
+  return find_case(name)->quantities;
+}
 
 void declare_exact_solution(Declarations &declarations, const DeclarationScope &scope)
 {

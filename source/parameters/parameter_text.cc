@@ -285,6 +285,29 @@ ParameterText read_parameter_text(const std::string &file)
   return scan_parameter_text(file == "-" ? read_standard_input() : read_input_file(file), file);
 }
 
+void set_entry(ParameterText &text, const ParameterEntry &entry)
+{
+  std::string opened;
+  for (const std::string &name : split(entry.path, '/'))
+  {
+    opened = join_path(opened, name);
+    if (text.find_subsection(opened) == nullptr)
+      text.subsections.push_back({opened, entry.file, entry.line});
+  }
+  if (const ParameterEntry *const present = text.find(entry.path, entry.key))
+    text.entries[present - text.entries.data()] = entry;
+  else
+    text.entries.push_back(entry);
+}
+
+void remove_subsection(ParameterText &text, const std::string &path)
+{
+  const auto is_inside = [&path](const auto &part) { return (part.path + "/").rfind(path + "/", 0) == 0; };
+  text.entries.erase(std::remove_if(text.entries.begin(), text.entries.end(), is_inside), text.entries.end());
+  text.subsections.erase(std::remove_if(text.subsections.begin(), text.subsections.end(), is_inside),
+                         text.subsections.end());
+}
+
 void apply_override(ParameterText &text, const std::string &override_text)
 {
   const std::size_t equals = override_text.find('=');
@@ -297,18 +320,9 @@ void apply_override(ParameterText &text, const std::string &override_text)
                          .at("--set")
                          .found("'" + override_text + "'")
                          .advise("write --set 'Body ball/Material/Density=7800'"));
-  const std::string quotation = "--set '" + override_text + "'";
-  std::string opened;
-  for (const std::string &part : split(path, '/'))
-  {
-    opened = join_path(opened, collapse_spaces(part));
-    if (text.find_subsection(opened) == nullptr)
-      text.subsections.push_back({opened, quotation, 0});
-  }
-  const ParameterEntry entry{opened, key, trim(override_text.substr(equals + 1)), quotation, 0};
-  if (const ParameterEntry *const present = text.find(opened, key))
-    text.entries[present - text.entries.data()] = entry;
-  else
-    text.entries.push_back(entry);
+  std::vector<std::string> names = split(path, '/');
+  std::transform(names.begin(), names.end(), names.begin(), collapse_spaces);
+  set_entry(text, {join(names, "/"), key, trim(override_text.substr(equals + 1)),
+                   "--set '" + override_text + "'", 0});
 }
 } // namespace signorini

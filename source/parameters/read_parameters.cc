@@ -10,6 +10,7 @@
 #include "signorini/parameters/run_parameters.h"
 #include "signorini/parameters/section_reader.h"
 #include "signorini/parameters/strings.h"
+#include "signorini/parameters/study_parameters.h"
 
 #include <fmt/format.h>
 
@@ -194,6 +195,7 @@ Declarations declare_parameters(const ParameterText &text, const Extent extent)
   declare_solver(declarations, scope);
   declare_adaptivity(declarations, scope);
   declare_exact_solution(declarations, scope);
+  declare_study(declarations, scope);
   declare_output(declarations, scope);
   return declarations;
 }
@@ -225,6 +227,8 @@ Parameters read_parameters(const ParameterText &text)
     parameters.adaptivity = read_adaptivity(text, in_use);
   if (text.find_subsection("Exact solution") != nullptr)
     parameters.exact_solution = read_exact_solution(text, in_use, parameters.dimension);
+  if (text.find_subsection("Study") != nullptr)
+    parameters.study = read_study(text, in_use, parameters);
   parameters.output = read_output(text, in_use);
   check_together(text, parameters);
   check_output_directory(parameters.output.directory, text.where("Output", "Directory"));

@@ -195,8 +195,9 @@ void declare_output(Declarations &declarations, const DeclarationScope &scope)
   SubsectionDeclaration output(declarations, "Output", "What is written, and where.");
   output.add("Directory", any_text(), "output/" + name, "",
              "Directory of all results; made if it does not exist.");
-  output.add("Number of fields", integer_from(0, 100000), "10", "",
-             "VTU files a run writes, beside the first.");
+  const bool is_study = scope.text.find_subsection("Study") != nullptr;
+  output.add("Number of fields", integer_from(0, 100000), is_study ? "0" : "10", "",
+             "VTU files a run writes, beside the first; 0 by default in the runs of a 'Study'.");
   output.add("Number of statistics rows", integer_from(1, 100000000), "200", "",
              "About how many rows of statistics.csv an explicit run writes.");
 }

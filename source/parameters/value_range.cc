@@ -68,9 +68,11 @@ std::string describe_components(const ValueRange &range)
   const std::string bounds = describe_bounds(range);
   if (range.max_components == 1)
     return (integer ? "an integer" : "a number") + bounds;
-  const std::string count = range.min_components == range.max_components
-                                ? fmt::format("{}", range.max_components)
-                                : fmt::format("{} or {}", range.min_components, range.max_components);
+  const std::string count =
+      range.min_components == range.max_components
+          ? fmt::format("{}", range.max_components)
+          : fmt::format("{} {} {}", range.min_components,
+                        range.max_components == range.min_components + 1 ? "or" : "to", range.max_components);
   return fmt::format("{} {}{} separated by commas", count, integer ? "integers" : "numbers", bounds);
 }
 

@@ -25,6 +25,7 @@ void add_options(CLI::App &app, CommandLine &command_line)
       ->type_name("SECTION/KEY=VALUE")
       ->allow_extra_args(false);
   app.add_option("--output", command_line.output, "Directory of the results")->type_name("DIR");
+  app.add_flag("--resume", command_line.resume, "Make only those runs of a study that are not finished");
   app.add_flag("--quiet", command_line.quiet, "Print errors only");
   app.set_version_flag("--version", "signorini " + program_version());
 }
@@ -41,8 +42,8 @@ std::vector<std::string> reversed_arguments(const int argc, const char *const *a
 
 [[noreturn]] void reject_unknown(const std::vector<std::string> &unknown)
 {
-  static const std::vector<std::string> options{"--validate", "--parameters", "--set", "--output",
-                                                "--quiet",    "--version",    "--help"};
+  static const std::vector<std::string> options{"--validate", "--parameters", "--set",     "--output",
+                                                "--resume",   "--quiet",      "--version", "--help"};
   const bool is_option = unknown.front().compare(0, 1, "-") == 0;
   const std::string name = unknown.front().substr(0, unknown.front().find('='));
   throw InputError(

@@ -3,6 +3,7 @@
 """Tests of scripts/report with a folder that no program wrote: what must be read there, and what may be missing."""
 import json
 import pathlib
+import re
 import subprocess
 import sys
 import tempfile
@@ -57,6 +58,15 @@ class ReportTest(unittest.TestCase):
     def test_a_folder_without_a_run_is_refused(self):
         (self.path / "summary.json").unlink()
         self.assertEqual(self.report().returncode, 3)
+
+    def test_a_later_run_removes_the_pictures_by_their_names(self):
+        made = {"scene"}
+        for part in ("curves", "study_curves"):
+            text = (ROOT / f"scripts/report_parts/{part}.py").read_text(encoding="utf-8")
+            made.update(re.findall(r'\("(\w+)", \w+\)', text[text.index("\nALL = "):]))
+        source = (ROOT / "source/output/earlier_output.cc").read_text(encoding="utf-8")
+        listed = re.search(r"report_\(([^)]*)\)", source.replace('"\n', "").replace('      "', ""))[1]
+        self.assertEqual(set(listed.split("|")), made)
 
 
 if __name__ == "__main__":

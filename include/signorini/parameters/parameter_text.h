@@ -67,6 +67,13 @@ ParameterText read_parameter_text(const std::string &file);
 /// The same for text in memory; `file` is its name in messages.
 ParameterText scan_parameter_text(const std::string &content, const std::string &file);
 
+/// Put an entry into the text, instead of the one there of that name; its subsections are added where they
+/// are missing.
+void set_entry(ParameterText &text, const ParameterEntry &entry);
+
+/// Take a subsection with all that stands in it out of the text; it may be absent.
+void remove_subsection(ParameterText &text, const std::string &path);
+
 /// Apply "Section/Subsection/Key=value" as though it stood in the file; replaces the entry there.
 /// Throws InputError if it has no such form. Whether its name is valid is found by read_parameters().
 void apply_override(ParameterText &text, const std::string &override_text);

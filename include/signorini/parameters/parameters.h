@@ -211,6 +211,27 @@ struct AdaptivityParameters
   unsigned int max_n_dofs = 10000000; ///< no refinement beyond
 };
 
+/// `subsection Study`: the runs of a study, and how they are compared.
+struct StudyParameters
+{
+  /// What runs of a study differ in.
+  enum class Factor
+  {
+    uniform_refinements, ///< levels added to the mesh of every body, without adaptivity
+    adaptive_cycles,     ///< Adaptivity/Maximum cycles
+    degree,
+    penalty_factor,
+    linear_solver,
+    step_factor ///< multiplies both step factors of `Explicit`
+  };
+  std::map<Factor, std::vector<std::string>> values; ///< as in the file; absent: the file's own value
+  unsigned int n_repeats = 1;                        ///< of every run
+  double tolerance = 0.01;                           ///< largest error of the run that is sought
+  std::vector<std::string> quantities;               ///< whose errors count, at least one
+  std::map<std::string, double> model_errors; ///< by quantity: taken off the relative error of every run
+  unsigned int max_n_dofs = 1000000;          ///< runs with more are left out
+};
+
 struct Parameters
 {
   unsigned int dimension = 3;
@@ -222,6 +243,7 @@ struct Parameters
   std::variant<QuasiStaticParameters, ExplicitParameters> solver;
   std::optional<AdaptivityParameters> adaptivity;
   std::optional<ExactSolutionParameters> exact_solution;
+  std::optional<StudyParameters> study;
   OutputParameters output;
 };
 } // namespace signorini

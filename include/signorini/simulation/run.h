@@ -1,13 +1,30 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
-#include "signorini/simulation/command_line.h"
+#include "signorini/parameters/parameter_text.h"
+#include "signorini/parameters/parameters.h"
 
 #include <mpi.h>
 
+#include <string>
+#include <vector>
+
 namespace signorini
 {
-/// Reads the parameter file of a command line, checks it, and runs it unless only validation is asked for.
-/// Collective. Throws InputError, NumericalError and FileError, the same on all ranks.
-void run(const CommandLine &command_line, const MPI_Comm &communicator);
+/// What is shown on the screen beside errors.
+enum class Screen
+{
+  all,
+  nothing
+};
+
+/// Makes one run of a text, already read, into its Output/Directory; `overrides` are those of the command
+/// line. Throws InputError for a scene that cannot be run, before the directory is touched, NumericalError
+/// and FileError, the same on all ranks. Collective.
+void run(const ParameterText &text, const Parameters &parameters, const std::vector<std::string> &overrides,
+         const MPI_Comm &communicator, Screen screen);
+
+/// Builds all that a run begins with and prints what would be done. Throws as run(). Collective.
+void print_plan(const ParameterText &text, const Parameters &parameters, const MPI_Comm &communicator,
+                Screen screen);
 } // namespace signorini

@@ -31,9 +31,10 @@ protected:
   bool exists(const std::string &name) const { return files::exists(folder / name); }
 
   const files::path folder = files::path(testing::TempDir()) / "signorini_earlier_output";
-  const std::vector<std::string> own{"summary.json",        "profile.csv",          "report.html",
-                                     "report_energy.png",   "solution.pvd",         "solution_0012.pvtu",
-                                     "solution_0012.0.vtu", "solution_12345.13.vtu"};
+  const std::vector<std::string> own{"summary.json",         "profile.csv",        "report.html",
+                                     "report_energy.png",    "study.csv",          "report_error_time.png",
+                                     "solution.pvd",         "solution_0012.pvtu", "solution_0012.0.vtu",
+                                     "solution_12345.13.vtu"};
   const std::vector<std::string> others{"energy.png",     "report.html~", "my_solution_0001.0.vtu",
                                         "solution.vtu",   "notes.txt",    "report_2.html",
                                         "report_mine.png"};

@@ -31,6 +31,12 @@ TEST(CommandLine, StandardInput)
   EXPECT_EQ(parse({"--quiet", "-"}).file, "-");
 }
 
+TEST(CommandLine, Resume)
+{
+  EXPECT_TRUE(parse({"a.prm", "--resume"}).resume);
+  EXPECT_FALSE(parse({"a.prm"}).resume);
+}
+
 TEST(CommandLine, FormatIsOptional)
 {
   EXPECT_EQ(parse({"--parameters"}).parameters_format.value(), "prm");
