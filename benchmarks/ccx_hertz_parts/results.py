@@ -17,9 +17,9 @@ def is_within(run, tolerance):
 def group(runs):
     """The runs of each series, by dofs."""
     series = {}
-    for run in sorted(runs, key=lambda run: run.dofs):
+    for run in runs:
         series.setdefault((run.code, run.series), []).append(run)
-    return series
+    return {name: sorted(members, key=lambda run: run.dofs) for name, members in series.items()}
 
 
 def find_cheapest(series, tolerance):
