@@ -71,7 +71,7 @@ def calculix_run(program, directory, element, cells):
 
 def signorini_runs(program, file, directory):
     grading, runs = "Body ball/Mesh/Grading/", []
-    # What reaches 1 % at least cost: degree 2 needs fewer layers of the finest cells.
+    # Of a few distances the cheapest: degree 2 needs fewer layers of the finest cells.
     for degree, refinements, distance in ((1, 1, 6e-4), (2, 0, 5e-4)):
         keys = {"Degree": degree, "Body ball/Mesh/Refinements": refinements, grading + "Distance": distance}
         for levels in (4, 5, 6):
