@@ -58,20 +58,23 @@ template <int dim>
 Json describe_contact(const Results<dim> &results)
 {
   const contact::ContactMeasures<dim> &contact = results.contact;
-  return {{"alpha", results.penalty_factor},
-          {"effective_stiffness", contact.max_stiffness},
-          {"max_penetration", contact.max_penetration},
-          {"max_penetration_over_h", contact.max_penetration_over_thickness},
-          {"max_pressure", contact.max_pressure},
-          {"area", contact.area},
-          {"resultant", describe_resultants(results)},
-          {"n_pairs_max", results.max_n_pairs},
-          {"touching", contact.n_active > 0},
-          {"peak",
-           {{"max_penetration", results.max_penetration},
-            {"max_penetration_over_h", results.max_penetration_over_thickness},
-            {"max_pressure", results.max_pressure},
-            {"area", results.max_area}}}};
+  Json description{{"alpha", results.penalty_factor},
+                   {"effective_stiffness", contact.max_stiffness},
+                   {"max_penetration", contact.max_penetration},
+                   {"max_penetration_over_h", contact.max_penetration_over_thickness},
+                   {"max_pressure", contact.max_pressure},
+                   {"area", contact.area},
+                   {"resultant", describe_resultants(results)},
+                   {"n_pairs_max", results.max_n_pairs},
+                   {"touching", contact.n_active > 0},
+                   {"peak",
+                    {{"max_penetration", results.max_penetration},
+                     {"max_penetration_over_h", results.max_penetration_over_thickness},
+                     {"max_pressure", results.max_pressure},
+                     {"area", results.max_area}}}};
+  if (results.correction_change)
+    description["correction_change"] = *results.correction_change;
+  return description;
 }
 
 template <int dim>

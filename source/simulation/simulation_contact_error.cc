@@ -15,6 +15,7 @@ template <int dim>
 std::optional<Complaint> Simulation<dim>::correct_contact(double time)
 {
   const CorrectionParameters &wanted = *parameters.contact->correction;
+  const auto multipliers_before = correction->multipliers();
   for (unsigned int step = 1;; ++step)
   {
     const double change = correction->update(state);
@@ -22,7 +23,10 @@ std::optional<Complaint> Simulation<dim>::correct_contact(double time)
     progress.step(fmt::format("load {:.5g}  correction {}  pressures change by {:.2e}", time, step, change),
                   time / std::get<QuasiStaticParameters>(parameters.solver).end_time);
     if (const std::optional<Complaint> fault = find_equilibrium(time))
+    {
+      correction->set(multipliers_before);
       return fault;
+    }
     if (change <= wanted.tolerance)
       return {};
     if (step == wanted.max_steps)

@@ -39,18 +39,14 @@ std::optional<Complaint> Simulation<dim>::solve_load_step(double time)
 {
   const State before = state;
   const double penalty_factor_before = results.penalty_factor;
-  const auto multipliers_before =
-      correction ? correction->multipliers() : typename ContactCorrection<dim>::Multipliers();
   std::optional<Complaint> fault = find_equilibrium(time);
-  if (!fault && correction)
-    fault = correct_contact(time);
   if (!fault && surface_map && !parameters.contact->penalty_factor)
     fault = choose_penalty_factor(time);
+  if (!fault && correction && !parameters.adaptivity)
+    fault = correct_contact(time);
   if (!fault)
     return {};
   state = before;
-  if (correction)
-    correction->set(multipliers_before);
   if (results.penalty_factor != penalty_factor_before)
     set_penalty_factor(penalty_factor_before);
   return fault;

@@ -62,6 +62,9 @@ private:
   void record_quasi_static();
   /// Refines the mesh and finds the equilibrium anew until the estimated error or the cycles end it.
   void adapt_to_load();
+  void say_mesh(unsigned int cycle);
+  /// Throws NumericalError for a fault found on a refined mesh.
+  void check_adapted(const std::optional<Complaint> &fault) const;
   void adapt_mesh();
   void make_quasi_static_solver();
   void say_equilibrium(double end_time);

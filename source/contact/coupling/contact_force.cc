@@ -5,7 +5,10 @@
 
 #include <deal.II/base/mpi.h>
 
+#include <Eigen/LU>
+
 #include <algorithm>
+#include <limits>
 #include <set>
 
 namespace signorini
@@ -31,6 +34,37 @@ move_to(const SpatialVector<dim> &origin, const typename contact::ContactPotenti
   for (const auto &obstacle : obstacles)
     moved.push_back(obstacle->moved(-origin));
   return moved;
+}
+template <int dim>
+double undeformed_area(const Facet<dim> &facet, const ContactSurface<dim> &surface)
+{
+  const auto nodes = contact::gather_nodes(facet, surface.reference_positions);
+  double area = 0.;
+  for (const auto &point : contact::make_gauss_points<dim>(3))
+    area += point.weight * contact::evaluate_facet_frame(nodes, point.xi).area_normal.norm();
+  return area;
+}
+
+template <int dim>
+constexpr int n_corners = 1 << (dim - 1);
+
+/// The (bi)linear functions of a facet, each 1 at one of its corners.
+template <int dim>
+Eigen::Matrix<double, n_corners<dim>, 1> corner_functions(const LocalPoint<dim> &xi)
+{
+  const auto shape = contact::evaluate_facet_shape<dim>(1, xi);
+  return Eigen::Map<const Eigen::Matrix<double, n_corners<dim>, 1>>(shape.value.data());
+}
+
+/// Inverse of ∫ N Nᵀ dξ of these functions.
+template <int dim>
+Eigen::Matrix<double, n_corners<dim>, n_corners<dim>> inverse_corner_mass()
+{
+  Eigen::Matrix<double, n_corners<dim>, n_corners<dim>> mass;
+  mass.setZero();
+  for (const auto &point : contact::make_gauss_points<dim>(2))
+    mass += point.weight * corner_functions<dim>(point.xi) * corner_functions<dim>(point.xi).transpose();
+  return mass.inverse();
 }
 } // namespace
 
@@ -176,35 +210,22 @@ std::vector<unsigned int> ContactForce<dim>::unseen_contact(const State &state) 
 {
   const ContactSurface<dim> &surface = map->surface();
   const std::vector<bool> is_active = potential.active_facets();
-  std::vector<signed char> is_seen(surface.n_nodes(), 0);
+  // At nodes of facets in contact any depth is known, elsewhere that to which contact goes anyway: with a
+  // stiff penalty a corner at the rim may lie in the other side a little while no point does.
+  std::vector<double> known_depth(surface.n_nodes(), measure().max_penetration);
   for (unsigned int f = 0; f < surface.facets.size(); ++f)
     for (unsigned int i = 0; i < surface.facets[f].n_nodes(); ++i)
       if (is_active[f])
-        is_seen[surface.facets[f].nodes[i]] = 1;
-  MPI_Allreduce(MPI_IN_PLACE, is_seen.data(), static_cast<int>(is_seen.size()), MPI_SIGNED_CHAR, MPI_MAX,
+        known_depth[surface.facets[f].nodes[i]] = std::numeric_limits<double>::max();
+  MPI_Allreduce(MPI_IN_PLACE, known_depth.data(), static_cast<int>(known_depth.size()), MPI_DOUBLE, MPI_MAX,
                 communicator);
-  return contact::find_unseen_contact(surface, potential.pair_list(), positions(state),
-                                      std::vector<bool>(is_seen.begin(), is_seen.end()));
+  return contact::find_unseen_contact(surface, potential.pair_list(), positions(state), known_depth);
 }
 
 template <int dim>
 double ContactForce<dim>::set_penalty_factor(double penalty_factor)
 {
   return dealii::Utilities::MPI::sum(potential.set_penalty_factor(penalty_factor), communicator);
-}
-
-template <int dim>
-std::array<double, Facet<dim>::max_n_nodes> ContactForce<dim>::hat_areas(const Facet<dim> &facet) const
-{
-  std::array<double, Facet<dim>::max_n_nodes> areas{};
-  const auto nodes = contact::gather_nodes(facet, map->surface().reference_positions);
-  for (const auto &point : contact::make_gauss_points<dim>(3))
-  {
-    const double area = point.weight * contact::evaluate_facet_frame(nodes, point.xi).area_normal.norm();
-    for (unsigned int i = 0; i < facet.n_nodes(); ++i)
-      areas[i] += area * contact::evaluate_hat_function(facet, i, point.xi);
-  }
-  return areas;
 }
 
 template <int dim>
@@ -218,11 +239,11 @@ std::vector<double> ContactForce<dim>::projected_pressures() const
     const Facet<dim> &facet = surface.facets[f];
     if (!facet.owned)
       continue;
-    const auto areas = hat_areas(facet);
+    const double area = undeformed_area(facet, surface);
     for (unsigned int i = 0; i < facet.n_nodes(); ++i)
     {
-      sums[2 * facet.nodes[i]] += areas[i] * of_facets[f][i];
-      sums[2 * facet.nodes[i] + 1] += areas[i];
+      sums[2 * facet.nodes[i]] += area * of_facets[f][i];
+      sums[2 * facet.nodes[i] + 1] += area;
     }
   }
   MPI_Allreduce(MPI_IN_PLACE, sums.data(), static_cast<int>(sums.size()), MPI_DOUBLE, MPI_SUM, communicator);
@@ -236,23 +257,22 @@ template <int dim>
 NodalPressures<dim> ContactForce<dim>::facet_pressures() const
 {
   const ContactSurface<dim> &surface = map->surface();
-  NodalPressures<dim> pressures(surface.facets.size());
-  for (auto &of_facet : pressures)
-    of_facet.fill(0.);
+  using Corners = Eigen::Matrix<double, n_corners<dim>, 1>;
+  std::vector<Corners> moments(surface.facets.size(), Corners::Zero()); // ∫ p N dA
   for (const contact::ContactSample<dim> &sample : potential.samples())
-  {
-    const Facet<dim> &facet = surface.facets[sample.facet];
-    for (unsigned int i = 0; i < facet.n_nodes(); ++i)
-      pressures[sample.facet][i] +=
-          contact::evaluate_hat_function(facet, i, sample.xi) * sample.full_area * sample.pressure;
-  }
+    moments[sample.facet] += sample.full_area * sample.pressure * corner_functions<dim>(sample.xi);
+
+  const auto inverse_mass = inverse_corner_mass<dim>();
+  NodalPressures<dim> pressures(surface.facets.size());
   for (unsigned int f = 0; f < surface.facets.size(); ++f)
   {
-    if (!surface.facets[f].owned)
+    const Facet<dim> &facet = surface.facets[f];
+    pressures[f].fill(0.);
+    if (!facet.owned)
       continue;
-    const auto areas = hat_areas(surface.facets[f]);
-    for (unsigned int i = 0; i < surface.facets[f].n_nodes(); ++i)
-      pressures[f][i] /= areas[i];
+    const Corners corners = inverse_mass * moments[f] / undeformed_area(facet, surface);
+    for (unsigned int i = 0; i < facet.n_nodes(); ++i)
+      pressures[f][i] = std::max(0., corners.dot(corner_functions<dim>(contact::node_coordinates(facet, i))));
   }
   return pressures;
 }

@@ -8,7 +8,7 @@ namespace signorini::contact
 template <int dim>
 std::vector<unsigned int> find_unseen_contact(const ContactSurface<dim> &surface, const PairList<dim> &pairs,
                                               const std::vector<SpatialVector<dim>> &positions,
-                                              const std::vector<bool> &is_seen)
+                                              const std::vector<double> &known_depth)
 {
   std::vector<bool> is_unseen(surface.facets.size(), false);
   for (unsigned int i = 0; i < pairs.obstacles().size(); ++i)
@@ -19,9 +19,9 @@ std::vector<unsigned int> find_unseen_contact(const ContactSurface<dim> &surface
     {
       const Facet<dim> &facet = surface.facets[f];
       if (facet.owned && !pairs.is_excluded_obstacle(facet.body, i))
-        is_unseen[f] = is_unseen[f] || std::any_of(facet.nodes.begin(), facet.nodes.begin() + facet.n_nodes(),
-                                                   [&](unsigned int node)
-                                                   { return !is_seen[node] && feet[node].depth > 0.; });
+        is_unseen[f] = is_unseen[f] ||
+                       std::any_of(facet.nodes.begin(), facet.nodes.begin() + facet.n_nodes(),
+                                   [&](unsigned int node) { return feet[node].depth > known_depth[node]; });
     }
   }
   for (const FacetNeighbours &near : pairs.neighbours())
@@ -29,15 +29,14 @@ std::vector<unsigned int> find_unseen_contact(const ContactSurface<dim> &surface
     const Facet<dim> &facet = surface.facets[near.facet];
     if (!facet.owned || is_unseen[near.facet])
       continue;
-    is_unseen[near.facet] =
-        std::any_of(facet.nodes.begin(), facet.nodes.begin() + facet.n_nodes(),
-                    [&](unsigned int node)
-                    {
-                      return !is_seen[node] && find_foot(surface.facets, positions, near.candidates.data(),
-                                                         static_cast<unsigned int>(near.candidates.size()),
-                                                         positions[node], pairs.reach(near.facet))
-                                                       .depth > 0.;
-                    });
+    is_unseen[near.facet] = std::any_of(facet.nodes.begin(), facet.nodes.begin() + facet.n_nodes(),
+                                        [&](unsigned int node)
+                                        {
+                                          return find_foot(surface.facets, positions, near.candidates.data(),
+                                                           static_cast<unsigned int>(near.candidates.size()),
+                                                           positions[node], pairs.reach(near.facet))
+                                                     .depth > known_depth[node];
+                                        });
   }
   std::vector<unsigned int> unseen;
   for (unsigned int f = 0; f < is_unseen.size(); ++f)
@@ -48,8 +47,8 @@ std::vector<unsigned int> find_unseen_contact(const ContactSurface<dim> &surface
 
 template std::vector<unsigned int> find_unseen_contact(const ContactSurface<2> &, const PairList<2> &,
                                                        const std::vector<SpatialVector<2>> &,
-                                                       const std::vector<bool> &);
+                                                       const std::vector<double> &);
 template std::vector<unsigned int> find_unseen_contact(const ContactSurface<3> &, const PairList<3> &,
                                                        const std::vector<SpatialVector<3>> &,
-                                                       const std::vector<bool> &);
+                                                       const std::vector<double> &);
 } // namespace signorini::contact

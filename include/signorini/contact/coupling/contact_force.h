@@ -54,12 +54,13 @@ public:
   /// See ContactPotential::facet_errors(); non-zero for this rank's facets only.
   std::vector<double> facet_errors() const { return potential.facet_errors(); }
 
-  /// Pressure at the nodes of this rank's facets, [facet][node of the facet], as the facet's own points have
-  /// it: ∫ p N dA / ∫ N dA with N the hat functions of the facet's nodes [Pa].
+  /// Pressure at the nodes of this rank's facets, [facet][node of the facet], non-zero for these only: the
+  /// L2 projection of the pressure of the facet's own points onto the (bi)linear functions of the facet, cut
+  /// off below 0 [Pa].
   NodalPressures<dim> facet_pressures() const;
 
-  /// The same over all facets at a node of the surface, [node], on every rank [Pa] (collective). It takes
-  /// the noise out of single points and sums up to the resultant.
+  /// The same as a mean over all facets at a node of the surface, by area, on every rank, [node] [Pa]
+  /// (collective): without the noise of single points.
   std::vector<double> projected_pressures() const;
 
   /// See PairList::set_penalty_factor(). Returns the jump of the stored energy over all ranks [J]
@@ -73,8 +74,6 @@ public:
   std::vector<contact::ContactSample<dim>> samples() const;
 
 private:
-  /// ∫ N dA over the undeformed facet, for its hat functions N [m²; m in 2-D].
-  std::array<double, Facet<dim>::max_n_nodes> hat_areas(const Facet<dim> &facet) const;
   std::vector<SpatialVector<dim>> positions(const State &state) const;
 
   const SurfaceMap<dim> *map;
