@@ -45,13 +45,14 @@ void Discretization<dim>::adapt(const std::vector<Vector *> &values)
 {
   std::vector<Vector> old_values;
   for (const Vector *vector : values)
-  {
     old_values.push_back(*vector);
-    old_values.back().update_ghost_values();
-  }
+  // Copies have no ghost values, nor has what std::vector moves to another place.
   std::vector<const Vector *> old_pointers;
-  for (const Vector &vector : old_values)
+  for (Vector &vector : old_values)
+  {
+    vector.update_ghost_values();
     old_pointers.push_back(&vector);
+  }
   dealii::parallel::distributed::SolutionTransfer<dim, Vector> transfer(dof_handler);
   mesh->prepare_coarsening_and_refinement();
   transfer.prepare_for_coarsening_and_refinement(old_pointers);

@@ -74,10 +74,10 @@ void set_manifold(const BodyParameters &parameters, unsigned int body, dealii::T
 
 /// Distance of a cell from what its body is graded towards, in the body's own coordinates.
 template <int dim>
-double distance_to_grading(const BodyParameters &parameters, const Placement<dim> &placement,
+double distance_to_grading(const MeshParameters &mesh, const Placement<dim> &placement,
                            const typename dealii::Triangulation<dim>::cell_iterator &cell)
 {
-  const MeshParameters::Grading &grading = *parameters.mesh.grading;
+  const MeshParameters::Grading &grading = *mesh.grading;
   std::vector<dealii::Point<dim>> vertices;
   for (const unsigned int v : cell->vertex_indices())
     vertices.push_back(placement.own_coordinates(cell->vertex(v)));
@@ -85,7 +85,7 @@ double distance_to_grading(const BodyParameters &parameters, const Placement<dim
   {
     double nearest = std::numeric_limits<double>::max();
     for (const dealii::Point<dim> &vertex : vertices)
-      nearest = std::min(nearest, distance_to_boundary(parameters.mesh, *grading.boundary, vertex));
+      nearest = std::min(nearest, distance_to_boundary(mesh, *grading.boundary, vertex));
     return nearest;
   }
   const dealii::BoundingBox<dim> box(vertices);
@@ -96,46 +96,51 @@ double distance_to_grading(const BodyParameters &parameters, const Placement<dim
   return std::sqrt(squared);
 }
 
-bool is_refined_in_round(const MeshParameters &mesh, unsigned int level, unsigned int round,
-                         const std::function<double()> &distance)
+} // namespace
+
+template <int dim>
+FileLevels<dim>::FileLevels(const std::vector<BodyParameters> &bodies)
 {
-  if (level != round)
-    return false;
-  if (round < mesh.refinements)
-    return true;
-  if (!mesh.grading || round >= mesh.refinements + mesh.grading->levels)
-    return false;
-  const unsigned int finer_levels = mesh.refinements + mesh.grading->levels - 1 - round;
-  return distance() <= mesh.grading->distance * std::pow(2., finer_levels);
+  for (const BodyParameters &body : bodies)
+  {
+    meshes.push_back(body.mesh);
+    placements.emplace_back(body.placement);
+  }
 }
 
 template <int dim>
-void refine(const std::vector<BodyParameters> &bodies,
-            dealii::parallel::distributed::Triangulation<dim> &mesh)
+unsigned int FileLevels<dim>::n_levels() const
 {
-  std::vector<Placement<dim>> placements;
-  unsigned int n_rounds = 0;
-  for (const BodyParameters &body : bodies)
-  {
-    placements.emplace_back(body.placement);
-    n_rounds =
-        std::max(n_rounds, body.mesh.refinements + (body.mesh.grading ? body.mesh.grading->levels : 0));
-  }
-  for (unsigned int round = 0; round < n_rounds; ++round)
-  {
-    for (const auto &cell : mesh.active_cell_iterators())
-      if (cell->is_locally_owned())
-      {
-        const unsigned int body = cell->material_id();
-        const auto distance = [&]()
-        { return distance_to_grading<dim>(bodies[body], placements[body], cell); };
-        if (is_refined_in_round(bodies[body].mesh, cell->level(), round, distance))
-          cell->set_refine_flag();
-      }
-    mesh.execute_coarsening_and_refinement();
-  }
+  unsigned int n = 0;
+  for (const MeshParameters &mesh : meshes)
+    n = std::max(n, mesh.refinements + (mesh.grading ? mesh.grading->levels : 0));
+  return n;
 }
-} // namespace
+
+template <int dim>
+bool FileLevels<dim>::is_refined(const typename dealii::Triangulation<dim>::cell_iterator &cell) const
+{
+  const unsigned int body = cell->material_id(), level = cell->level();
+  const MeshParameters &mesh = meshes[body];
+  if (level < mesh.refinements)
+    return true;
+  if (!mesh.grading || level >= mesh.refinements + mesh.grading->levels)
+    return false;
+  const unsigned int finer_levels = mesh.refinements + mesh.grading->levels - 1 - level;
+  return distance_to_grading<dim>(mesh, placements[body], cell) <=
+         mesh.grading->distance * std::pow(2., finer_levels);
+}
+
+template <int dim>
+unsigned int FileLevels<dim>::level_at(const typename dealii::Triangulation<dim>::cell_iterator &cell) const
+{
+  if (cell->level() == 0)
+    return 0;
+  const auto parent = cell->parent();
+  const unsigned int of_parent = level_at(parent);
+  return of_parent == static_cast<unsigned int>(parent->level()) && is_refined(parent) ? cell->level()
+                                                                                       : of_parent;
+}
 
 dealii::types::boundary_id global_boundary_id(unsigned int body, unsigned int local_id)
 {
@@ -160,10 +165,19 @@ make_scene_mesh(const std::vector<BodyParameters> &bodies, const MPI_Comm &commu
   mesh->create_triangulation(scene.vertices, scene.cells, scene.faces);
   for (unsigned int body = 0; body < bodies.size(); ++body)
     set_manifold(bodies[body], body, *mesh);
-  refine(bodies, *mesh);
+  const FileLevels<dim> levels(bodies);
+  for (unsigned int level = 0; level < levels.n_levels(); ++level)
+  {
+    for (const auto &cell : mesh->active_cell_iterators_on_level(level))
+      if (cell->is_locally_owned() && levels.is_refined(cell))
+        cell->set_refine_flag();
+    mesh->execute_coarsening_and_refinement();
+  }
   return mesh;
 }
 
+template class FileLevels<2>;
+template class FileLevels<3>;
 template std::unique_ptr<dealii::parallel::distributed::Triangulation<2>>
 make_scene_mesh<2>(const std::vector<BodyParameters> &, const MPI_Comm &);
 template std::unique_ptr<dealii::parallel::distributed::Triangulation<3>>

@@ -89,6 +89,8 @@ Json describe_energy(const Results<dim> &results)
           {"dissipated", energy.dissipated},
           {"work", energy.work_of_loads + energy.work_of_supports},
           {"contact_renewals", energy.contact_renewals},
+          {"adaptation", energy.adaptation},
+          {"max_adaptation", energy.max_adaptation},
           {"initial", energy.initial},
           {"ledger_residual", energy.residual()},
           {"max_ledger_residual", results.max_ledger_residual}};

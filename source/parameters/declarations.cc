@@ -160,7 +160,9 @@ std::string deciding_choice(const ParameterText &text, const Declarations &in_us
   for (const std::string key : {"Shape", "Case"})
     if (const Declaration *const declaration = in_use.find(path, key))
       return fmt::format("{} = {}", key, text.value(path, key, declaration->default_value));
-  return "";
+  if (path == "Adaptivity")
+    return in_use.has_subsection("Explicit") ? "'Explicit'" : "'Quasi-static'";
+  return "the dimension";
 }
 } // namespace
 
@@ -188,15 +190,12 @@ void check_presence(const ParameterText &text, const Declarations &in_use)
 {
   for (const ParameterEntry &entry : text.entries)
     if (in_use.find(entry.path, entry.key) == nullptr)
-    {
-      const std::string choice = deciding_choice(text, in_use, entry.path);
       throw InputError(
           Complaint(fmt::format("'{}' contradicts {}, which has no such entry",
-                                join_path(entry.path, entry.key), choice.empty() ? "the dimension" : choice))
+                                join_path(entry.path, entry.key), deciding_choice(text, in_use, entry.path)))
               .at(entry.where())
               .found(entry.value)
               .advise("remove one of the two"));
-    }
   for (const Declaration &declaration : in_use.entries)
     check_required(text, declaration);
 }

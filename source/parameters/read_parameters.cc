@@ -166,11 +166,6 @@ void check_together(const ParameterText &text, const Parameters &parameters)
   std::visit([&end_time](const auto &run) { end_time = run.end_time; }, parameters.solver);
   if (std::holds_alternative<QuasiStaticParameters>(parameters.solver))
     check_quasi_static(text, parameters);
-  else if (parameters.adaptivity)
-    throw InputError(Complaint("'Adaptivity' refines the meshes of quasi-static runs only")
-                         .at(text.where("Adaptivity"))
-                         .found("'Explicit' stands at " + text.where("Explicit"))
-                         .advise("remove the subsection, or run 'Quasi-static'"));
   else
     check_explicit(text, parameters);
   check_contact_error(text, parameters);

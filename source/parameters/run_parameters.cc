@@ -65,26 +65,49 @@ const std::vector<RunEntry<ExplicitParameters>> &explicit_entries()
   return entries;
 }
 
-const std::vector<RunEntry<AdaptivityParameters>> &adaptivity_entries()
+using AdaptivityEntries = std::vector<RunEntry<AdaptivityParameters>>;
+
+const AdaptivityEntries &quasi_static_adaptivity_entries()
 {
   using Run = AdaptivityParameters;
-  static const std::vector<RunEntry<Run>> entries{
+  static const AdaptivityEntries entries{
       {"Maximum cycles", integer_from(1, 100), "8", "",
-       "How often in one load step the mesh is refined where the estimated error is large, and the "
-       "equilibrium "
-       "found anew.",
+       "Quasi-static: how often in one load step the mesh is refined where the estimated error is large, and "
+       "the equilibrium found anew.",
        &Run::max_cycles},
-      {"Refine share", number_above_up_to(0., 1.), "0.5", "",
+      {"Target error", number_from(0.), "0", "",
+       "Quasi-static: refining ends when the estimated relative error in the energy norm is below; 0: after "
+       "the cycles.",
+       &Run::target_error}};
+  return entries;
+}
+
+const AdaptivityEntries &explicit_adaptivity_entries()
+{
+  using Run = AdaptivityParameters;
+  static const AdaptivityEntries entries{
+      {"Interval", integer_from(1, 1000000), "20", "",
+       "Explicit: time steps from one adaptation to the next. Cells that may come into contact before the "
+       "next one are refined to the last level, and stay so while in contact.",
+       &Run::interval},
+      {"Maximum levels", integer_from(1, 10), "2", "",
+       "Explicit: how often a cell of the file's mesh may be refined. Every level halves the time step.",
+       &Run::max_levels}};
+  return entries;
+}
+
+const AdaptivityEntries &common_adaptivity_entries()
+{
+  using Run = AdaptivityParameters;
+  static const AdaptivityEntries entries{
+      {"Refine share", number_from_up_to(0., 1.), "0.5", "",
        "The cells with the largest errors are refined, so many that they hold this share of the squared "
-       "error.",
+       "error. Explicit: 0 refines for contact only.",
        &Run::refine_share},
       {"Coarsen share", number_from(0.), "0.01", "",
-       "The cells with the smallest errors, so many that they hold this share, are made coarser again, but "
-       "never than the mesh of the file.",
+       "The cells with the smallest errors, so many that they hold this share, are made coarser again; in "
+       "explicit runs never than the mesh of the file, and not while they are near contact.",
        &Run::coarsen_share},
-      {"Target error", number_from(0.), "0", "",
-       "Refining ends when the estimated relative error in the energy norm is below; 0: after the cycles.",
-       &Run::target_error},
       {"Maximum dofs", integer_from(1, 1000000000), "10000000", "",
        "Refining ends when the mesh has so many degrees of freedom.", &Run::max_n_dofs}};
   return entries;
@@ -143,17 +166,29 @@ void declare_adaptivity(Declarations &declarations, const DeclarationScope &scop
 {
   if (!scope.includes("Adaptivity"))
     return;
-  SubsectionDeclaration section(
-      declarations, "Adaptivity",
-      "Refinement of the mesh where the estimated error is large; needs 'Quasi-static'.");
-  declare_entries(adaptivity_entries(), section);
+  SubsectionDeclaration section(declarations, "Adaptivity",
+                                "Refinement of the mesh: where the estimated error is large, and in explicit "
+                                "runs where contact is coming.");
+  const bool is_everything = scope.extent == Extent::everything;
+  if (is_everything || scope.includes("Quasi-static"))
+    declare_entries(quasi_static_adaptivity_entries(), section);
+  if (is_everything || scope.includes("Explicit"))
+    declare_entries(explicit_adaptivity_entries(), section);
+  declare_entries(common_adaptivity_entries(), section);
 }
 
 AdaptivityParameters read_adaptivity(const ParameterText &text, const Declarations &in_use)
 {
   AdaptivityParameters adaptivity;
   const SectionReader section(text, in_use, "Adaptivity", 3);
-  read_entries(adaptivity_entries(), section, adaptivity);
+  const bool is_explicit = text.find_subsection("Explicit") != nullptr;
+  read_entries(is_explicit ? explicit_adaptivity_entries() : quasi_static_adaptivity_entries(), section,
+               adaptivity);
+  read_entries(common_adaptivity_entries(), section, adaptivity);
+  if (!is_explicit && adaptivity.refine_share == 0.)
+    throw InputError(section.complain("Refine share", "a quasi-static run would refine nothing")
+                         .expected("above 0")
+                         .advise("raise it, or remove 'Adaptivity'"));
   if (adaptivity.refine_share + adaptivity.coarsen_share > 1.)
     throw InputError(section.complain("Coarsen share", "some cells would have to become finer and coarser")
                          .expected("at most 1 together with 'Refine share'"));

@@ -176,6 +176,13 @@ ValueRange positive_length()
   return range;
 }
 
+ValueRange number_from_up_to(const double lower, const double upper)
+{
+  ValueRange range = number_from(lower);
+  range.upper = upper;
+  return range;
+}
+
 ValueRange number_above_up_to(const double lower, const double upper)
 {
   ValueRange range = number_above(lower);

@@ -20,8 +20,14 @@ double relative_difference(const std::array<double, 3> &now, const std::array<do
 
 double EnergyLedger::imbalance() const
 {
-  return kinetic + elastic + contact + dissipated - work_of_loads - work_of_supports - contact_renewals -
-         initial;
+  return stored() + dissipated - work_of_loads - work_of_supports - contact_renewals - adaptation - initial;
+}
+
+void EnergyLedger::book_adaptation(double before)
+{
+  const double jump = stored() - before;
+  adaptation += jump;
+  max_adaptation = std::max(max_adaptation, std::abs(jump));
 }
 
 double EnergyLedger::residual() const
@@ -31,8 +37,7 @@ double EnergyLedger::residual() const
 
 void EnergyLedger::note_scale()
 {
-  largest = std::max(
-      largest, std::max(kinetic + elastic + contact, std::abs(work_of_loads) + std::abs(work_of_supports)));
+  largest = std::max(largest, std::max(stored(), std::abs(work_of_loads) + std::abs(work_of_supports)));
 }
 
 double MomentumLedger::linear_drift() const

@@ -15,13 +15,14 @@ namespace signorini
 template <int dim>
 void Simulation<dim>::run_explicit(const ExplicitParameters &solver_parameters)
 {
-  ExplicitSolver<dim> solver(*discretization, *supports, scene.materials, forces, solver_parameters,
-                             run_time);
-  solver.start(state);
   const double end = solver_parameters.end_time;
+  make_explicit_solver();
+  if (parameters.adaptivity)
+    file_levels = std::make_unique<FileLevels<dim>>(parameters.bodies);
+  explicit_solver->start(state);
   const unsigned int n_rows = std::max(1u, parameters.output.n_statistics);
   const unsigned int n_fields = std::max(1u, parameters.output.n_fields);
-  record_explicit(solver, 0., end);
+  record_explicit(0., end);
   estimate_error();
   write_fields();
   // Rows and fields are written by the first step that reaches their time: outputs do not shape the steps.
@@ -29,16 +30,11 @@ void Simulation<dim>::run_explicit(const ExplicitParameters &solver_parameters)
   double time_of_fields = 0.;
   while (state.time < end)
   {
-    const double remaining = end - state.time, stable = solver.stable_step();
-    if (!(state.time + stable > state.time))
-      throw NumericalError(Complaint(fmt::format("the stable time step vanishes at t = {:.6g}", state.time))
-                               .found(fmt::format("{} s", stable))
-                               .advise("look at the last fields for a crushed cell; refine, or lower "
-                                       "Contact/Penalty factor"));
-    const double time_step =
-        remaining > 2. * stable ? stable : remaining / std::max(1., std::ceil(remaining / stable - 1e-9));
+    if (const double unadapted_step = next_time_step(end); is_adaptation_due(unadapted_step))
+      adapt_in_explicit_run(unadapted_step);
+    const double time_step = next_time_step(end);
     check_motion(time_step);
-    solver.step(time_step, state);
+    explicit_solver->step(time_step, state);
     if (end - state.time < 1e-9 * time_step)
       state.time = end;
     ++results.n_steps;
@@ -47,8 +43,8 @@ void Simulation<dim>::run_explicit(const ExplicitParameters &solver_parameters)
       throw NumericalError(*fault);
     if (state.time >= end * row / n_rows)
     {
-      solver.take_stock(state);
-      record_explicit(solver, time_step, end);
+      explicit_solver->take_stock(state);
+      record_explicit(time_step, end);
       row = 1 + static_cast<unsigned int>(std::floor(state.time / end * n_rows));
     }
     if (state.time >= end * field / n_fields)
@@ -62,9 +58,10 @@ void Simulation<dim>::run_explicit(const ExplicitParameters &solver_parameters)
       check_interruption(
           [&]()
           {
-            solver.take_stock(state);
+            explicit_solver->take_stock(state);
             if (results.history.back().time < state.time)
-              record_explicit(solver, time_step, end);
+              record_explicit(time_step, end);
+            estimate_error();
             if (time_of_fields < state.time)
               write_fields();
           });
@@ -72,11 +69,23 @@ void Simulation<dim>::run_explicit(const ExplicitParameters &solver_parameters)
 }
 
 template <int dim>
-void Simulation<dim>::record_explicit(const ExplicitSolver<dim> &solver, double time_step, double end)
+double Simulation<dim>::next_time_step(double end) const
+{
+  const double remaining = end - state.time, stable = explicit_solver->stable_step();
+  if (!(state.time + stable > state.time))
+    throw NumericalError(Complaint(fmt::format("the stable time step vanishes at t = {:.6g}", state.time))
+                             .found(fmt::format("{} s", stable))
+                             .advise("look at the last fields for a crushed cell; refine, or lower "
+                                     "Contact/Penalty factor"));
+  return remaining > 2. * stable ? stable : remaining / std::max(1., std::ceil(remaining / stable - 1e-9));
+}
+
+template <int dim>
+void Simulation<dim>::record_explicit(double time_step, double end)
 {
   const auto joules = [](const std::string &name) { return name + (dim == 2 ? " [J/m]" : " [J]"); };
-  const EnergyLedger &energy = solver.energy();
-  const MomentumLedger &momentum = solver.momentum();
+  const EnergyLedger &energy = explicit_solver->energy();
+  const MomentumLedger &momentum = explicit_solver->momentum();
   results.has_ledger = true;
   results.energy = energy;
   results.momentum = momentum;
@@ -96,6 +105,11 @@ void Simulation<dim>::record_explicit(const ExplicitSolver<dim> &solver, double 
                       {"ledger residual [1]", energy.residual()},
                       {"linear momentum drift [1]", momentum.linear_drift()},
                       {"angular momentum drift [1]", momentum.angular_drift()}};
+  if (parameters.adaptivity)
+  {
+    row.emplace_back(joules("energy of adaptation since the start"), energy.adaptation);
+    row.emplace_back("cells [1]", results.n_cells);
+  }
   if (results.has_contact)
     append_contact(row);
   append_resultants(row);

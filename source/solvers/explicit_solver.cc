@@ -32,9 +32,9 @@ ExplicitSolver<dim>::ExplicitSolver(const Discretization<dim> &the_discretizatio
 }
 
 template <int dim>
-void ExplicitSolver<dim>::start(State &state)
+void ExplicitSolver<dim>::begin(State &state)
 {
-  supports->impose(0., state.displacement);
+  supports->impose(state.time, state.displacement);
   discretization->distribute(state.displacement);
   discretization->distribute(state.velocity);
   for (const auto &contact : forces->contacts)
@@ -42,9 +42,30 @@ void ExplicitSolver<dim>::start(State &state)
   compute_forces(state, state.velocity);
   update_bulk_bound();
   take_stock(state);
-  energy_ledger.initial = energy_ledger.kinetic + energy_ledger.elastic + energy_ledger.contact;
+}
+
+template <int dim>
+void ExplicitSolver<dim>::start(State &state)
+{
+  begin(state);
+  energy_ledger.initial = energy_ledger.stored();
   momentum_ledger.initial_linear = momentum_ledger.linear;
   momentum_ledger.initial_angular = momentum_ledger.angular;
+}
+
+template <int dim>
+void ExplicitSolver<dim>::resume(const ExplicitSolver &before, const VectorAndMoment &momentum_change,
+                                 State &state)
+{
+  energy_ledger = before.energy_ledger;
+  momentum_ledger = before.momentum_ledger;
+  for (unsigned int d = 0; d < 3; ++d)
+  {
+    momentum_ledger.linear_impulse[d] += momentum_change.vector[d];
+    momentum_ledger.angular_impulse[d] += momentum_change.moment[d];
+  }
+  begin(state);
+  energy_ledger.book_adaptation(before.energy_ledger.stored());
 }
 
 template <int dim>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
+#include "signorini/discretization/placement.h"
 #include "signorini/parameters/parameters.h"
 
 #include <deal.II/distributed/tria.h>
@@ -14,6 +15,28 @@ dealii::types::boundary_id global_boundary_id(unsigned int body, unsigned int lo
 
 /// Body of a boundary id made by global_boundary_id(), and its index within that body.
 std::pair<unsigned int, unsigned int> split_boundary_id(dealii::types::boundary_id id);
+
+/// The levels of refinement that the parameter file asks for, place by place.
+template <int dim>
+class FileLevels
+{
+public:
+  explicit FileLevels(const std::vector<BodyParameters> &bodies);
+
+  /// Level of that cell of the file's mesh which `cell` is or descends from, not counting what was refined
+  /// only to keep neighbours within one level.
+  unsigned int level_at(const typename dealii::Triangulation<dim>::cell_iterator &cell) const;
+
+  /// Whether the file asks to refine a cell of this level.
+  bool is_refined(const typename dealii::Triangulation<dim>::cell_iterator &cell) const;
+
+  /// One more than the highest level of a cell that is refined.
+  unsigned int n_levels() const;
+
+private:
+  std::vector<MeshParameters> meshes;
+  std::vector<Placement<dim>> placements;
+};
 
 /// All bodies of a scene in one distributed mesh. Bodies share no vertex, touching or not; a cell's material
 /// id is the index of its body. Curved boundaries stay on their manifolds under refinement; grading is done.

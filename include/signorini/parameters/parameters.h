@@ -201,9 +201,12 @@ struct OutputParameters
   unsigned int n_statistics = 200; ///< about how many rows of statistics.csv an explicit run writes
 };
 
-/// `subsection Adaptivity`.
+/// `subsection Adaptivity`. Target error and cycles are of quasi-static runs, interval and levels of explicit
+/// ones.
 struct AdaptivityParameters
 {
+  unsigned int interval = 20;         ///< steps from one adaptation to the next
+  unsigned int max_levels = 2;        ///< refinements of a cell of the file's mesh at most
   unsigned int max_cycles = 8;        ///< of solving, estimating and refining in one load step
   double refine_share = 0.5;          ///< cells with this share of the squared error are refined
   double coarsen_share = 0.01;        ///< cells with this share are made coarser

@@ -46,6 +46,8 @@ ValueRange positive_length();
 ValueRange number_from(double lower);
 /// Both ends excluded.
 ValueRange number_between(double lower, double upper);
+/// Both ends included.
+ValueRange number_from_up_to(double lower, double upper);
 /// Lower end excluded.
 ValueRange number_above_up_to(double lower, double upper);
 ValueRange integer_from(long lower, long upper);

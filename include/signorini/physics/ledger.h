@@ -6,8 +6,8 @@
 namespace signorini
 {
 /// Where the energy of a run is, and what crossed its border [J; J/m in 2-D]. It closes when
-/// kinetic + elastic + contact + dissipated − (work of loads and supports) − (jumps) stays at its first
-/// value.
+/// kinetic + elastic + contact + dissipated − (work of loads and supports) − (renewals and adaptation) stays
+/// at its first value.
 struct EnergyLedger
 {
   double kinetic = 0.;
@@ -18,9 +18,15 @@ struct EnergyLedger
   double work_of_supports = 0.; ///< since the start
   double contact_renewals =
       0.; ///< stored energy that came with renewed contact stiffnesses or points, since the start
-  double initial = 0.; ///< kinetic + elastic + contact at the start
-  double largest = 0.; ///< largest of the sums of magnitudes seen: the scale of the residual
+  double adaptation = 0.;     ///< by which the sum of the first three jumped with the mesh, since the start
+  double max_adaptation = 0.; ///< largest of these jumps, without its sign
+  double initial = 0.;        ///< kinetic + elastic + contact at the start
+  double largest = 0.;        ///< largest of the sums of magnitudes seen: the scale of the residual
 
+  /// kinetic + elastic + contact.
+  double stored() const { return kinetic + elastic + contact; }
+  /// Books what stored() has become with a new mesh; `before`: what it was on the old one.
+  void book_adaptation(double before);
   /// What is missing or too much.
   double imbalance() const;
   /// imbalance() over `largest`.

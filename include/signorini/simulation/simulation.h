@@ -3,6 +3,7 @@
 
 #include "signorini/adaptivity/contact_correction.h"
 #include "signorini/adaptivity/error_estimator.h"
+#include "signorini/adaptivity/motion_marking.h"
 #include "signorini/base/exceptions.h"
 #include "signorini/base/run_time.h"
 #include "signorini/discretization/supports.h"
@@ -58,7 +59,15 @@ private:
   std::optional<Complaint> correct_contact(double time);
   std::optional<Complaint> choose_penalty_factor(double time);
   void set_penalty_factor(double penalty_factor);
-  void record_explicit(const ExplicitSolver<dim> &solver, double time_step, double end_time);
+  /// The next step: the largest that is stable, less where the end is near.
+  double next_time_step(double end_time) const;
+  void record_explicit(double time_step, double end_time);
+  void make_explicit_solver();
+  bool is_adaptation_due(double time_step) const;
+  /// Flags cells for what is to come within `duration`; whether there are any.
+  bool mark_in_motion(double duration, OtherCells others);
+  /// Adapts the mesh in the middle of the run, `time_step` being the step that would be next.
+  void adapt_in_explicit_run(double time_step);
   void record_quasi_static();
   /// Refines the mesh and finds the equilibrium anew until the estimated error or the cycles end it.
   void adapt_to_load();
@@ -118,6 +127,10 @@ private:
   std::unique_ptr<ErrorEstimator<dim>> estimator;
   std::unique_ptr<ContactCorrection<dim>> correction;          ///< null unless the file asks for it
   std::unique_ptr<QuasiStaticSolver<dim>> quasi_static_solver; ///< quasi-static runs
+  std::unique_ptr<ExplicitSolver<dim>> explicit_solver;        ///< explicit runs
+  std::unique_ptr<FileLevels<dim>> file_levels;                ///< explicit runs with adaptivity
+  unsigned int next_adaptation_step = 0; ///< explicit runs: the mesh is adapted before this step,
+  double next_adaptation_time = 0.;      ///< and before this time, to which contact has been foreseen [s]
   std::unique_ptr<Fields<dim>> fields;
   std::unique_ptr<Statistics> statistics; ///< on rank 0
   Results<dim> results;

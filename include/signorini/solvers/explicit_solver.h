@@ -30,6 +30,11 @@ public:
   /// Computes the first forces and opens the ledgers.
   void start(State &state);
 
+  /// The same in the middle of a run whose mesh has changed: carries on the ledgers of the solver on the old
+  /// mesh, brought up to the present, and books by how much the energies jumped. `momentum_change`: by how
+  /// much the change of the mesh took the momenta elsewhere than round-off would.
+  void resume(const ExplicitSolver &before, const VectorAndMoment &momentum_change, State &state);
+
   /// Largest step that is stable from the present state on, with its factors [s].
   double stable_step() const;
 
@@ -42,6 +47,8 @@ public:
   const MomentumLedger &momentum() const { return momentum_ledger; }
 
 private:
+  /// Computes the first forces and the energies and momenta with them.
+  void begin(State &state);
   void update_bulk_bound();
   /// Where the law is not linear, every few steps: has any cell been strained by more than a little since?
   bool is_bulk_bound_stale();

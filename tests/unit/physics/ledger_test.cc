@@ -20,7 +20,19 @@ TEST(EnergyLedger, ImbalanceCountsEveryEntryOnceWithItsSign)
   ledger.work_of_supports = 32.;
   ledger.contact_renewals = 64.;
   ledger.initial = 128.;
-  EXPECT_DOUBLE_EQ(ledger.imbalance(), 15. - 16. - 32. - 64. - 128.);
+  ledger.adaptation = 256.;
+  EXPECT_DOUBLE_EQ(ledger.imbalance(), 15. - 16. - 32. - 64. - 128. - 256.);
+}
+
+TEST(EnergyLedger, AdaptationsAreSummedAndTheLargestJumpIsKept)
+{
+  EnergyLedger ledger;
+  ledger.kinetic = 6.;
+  ledger.elastic = 2.;
+  ledger.book_adaptation(11.);
+  ledger.book_adaptation(7.);
+  EXPECT_DOUBLE_EQ(ledger.adaptation, -2.);
+  EXPECT_DOUBLE_EQ(ledger.max_adaptation, 3.);
 }
 
 TEST(EnergyLedger, ResidualIsRelativeToTheLargestSumSeen)

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include "signorini/contact/search/facet_box.h"
+#include "signorini/scene/obstacle.h"
+
+#include <functional>
+#include <vector>
+
+namespace signorini::contact
+{
+/// Surface nodes that go on as they move now.
+template <int dim>
+struct StraightMotion
+{
+  std::vector<SpatialVector<dim>> positions;  ///< one a node, from the surface's origin [m]
+  std::vector<SpatialVector<dim>> velocities; ///< one a node [m/s]
+  double duration = 0.;                       ///< how long [s]
+};
+
+/// Owned facets that may touch one of another body within the duration, in rising order: those of which a
+/// point out of a lattice of 3 (2-D) or 3 × 3 is nearer to a facet than `margins` of its own facet [m] and
+/// the way that the two facets can make towards each other. Bodies may move fast together: only relative
+/// motion counts.
+template <int dim>
+std::vector<unsigned int>
+find_coming_contact(const ContactSurface<dim> &surface, const StraightMotion<dim> &motion,
+                    const std::vector<double> &margins,
+                    const std::function<bool(unsigned int body, unsigned int other_body)> &is_allowed_pair);
+
+/// The same with a fixed obstacle, which has been moved to the surface's origin.
+template <int dim>
+std::vector<unsigned int>
+find_coming_contact(const ContactSurface<dim> &surface, const StraightMotion<dim> &motion,
+                    const std::vector<double> &margins, const Obstacle<dim> &obstacle,
+                    const std::function<bool(unsigned int body)> &is_allowed_body);
+} // namespace signorini::contact

@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "signorini/adaptivity/motion_marking.h"
+
+#include "signorini/contact/search/coming_contact.h"
+#include "signorini/parameters/contact_parameters.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace signorini
+{
+namespace
+{
+/// The own cell behind each owned facet, which the surface map collects in this order, and how many levels it
+/// lies above the file's mesh.
+struct CellOfFacet
+{
+  unsigned int facet, own_cell, extra_levels;
+};
+
+template <int dim>
+std::vector<CellOfFacet> find_cells_of_facets(const Discretization<dim> &discretization,
+                                              const SurfaceMap<dim> &map, const FileLevels<dim> &file_levels)
+{
+  std::vector<unsigned int> owned;
+  for (unsigned int f = 0; f < map.surface().facets.size(); ++f)
+    if (map.surface().facets[f].owned)
+      owned.push_back(f);
+  std::vector<CellOfFacet> cells;
+  unsigned int own_cell = 0;
+  for (const auto &cell : discretization.mesh->active_cell_iterators())
+    if (cell->is_locally_owned())
+    {
+      for (const unsigned int face : cell->face_indices())
+        if (cell->face(face)->at_boundary())
+          cells.push_back({owned.at(cells.size()), own_cell, cell->level() - file_levels.level_at(cell)});
+      ++own_cell;
+    }
+  return cells;
+}
+
+/// Squared errors sorted by size into classes of a tenth of a factor of two each; summed over all ranks.
+class ErrorClasses
+{
+public:
+  static constexpr unsigned int n_classes = 600;
+
+  ErrorClasses(const ErrorEstimate &estimate, const MPI_Comm &communicator)
+      : total(estimate.discretization), sums(n_classes, 0.)
+  {
+    for (const double squared : estimate.cell_discretization)
+      sums[class_of(squared)] += squared;
+    dealii::Utilities::MPI::sum(sums, communicator, sums);
+  }
+
+  /// 0 holds the largest errors.
+  unsigned int class_of(double squared) const
+  {
+    const double index = squared > 0. ? std::floor(-10. * std::log2(squared / total)) : n_classes;
+    return static_cast<unsigned int>(std::clamp(index, 0., n_classes - 1.));
+  }
+
+  /// Classes below this one hold just at least that share.
+  unsigned int end_of_largest(double share) const
+  {
+    unsigned int end = 0;
+    for (double sum = 0.; end < n_classes && sum < share * total; ++end)
+      sum += sums[end];
+    return end;
+  }
+
+  /// Classes from this one on hold at most that share.
+  unsigned int begin_of_smallest(double share) const
+  {
+    unsigned int begin = n_classes;
+    for (double sum = 0.; begin > 0 && (sum += sums[begin - 1]) <= share * total; --begin)
+      ;
+    return begin;
+  }
+
+private:
+  double total;
+  std::vector<double> sums;
+};
+} // namespace
+
+template <int dim>
+std::vector<bool> find_cells_near_contact(const Scene<dim> &scene, const ContactParameters &contact,
+                                          const Discretization<dim> &discretization,
+                                          const SurfaceMap<dim> &map, const FileLevels<dim> &file_levels,
+                                          const State &state, double duration)
+{
+  constexpr double margin_over_file_cell = 0.6;
+  const ContactSurface<dim> &surface = map.surface();
+  const std::vector<CellOfFacet> cells = find_cells_of_facets(discretization, map, file_levels);
+  std::vector<double> margins(surface.facets.size(), 0.);
+  for (const CellOfFacet &cell : cells)
+    margins[cell.facet] =
+        margin_over_file_cell * surface.facets[cell.facet].layer_thickness * std::pow(2., cell.extra_levels);
+
+  contact::StraightMotion<dim> motion{map.gather(state.displacement), map.gather(state.velocity), duration};
+  for (unsigned int node = 0; node < surface.n_nodes(); ++node)
+    motion.positions[node] += surface.reference_positions[node];
+  const auto may_touch = [&](unsigned int body, const std::string &other)
+  { return !is_pair_excluded(contact, scene.body_names[body], other); };
+  std::vector<bool> is_near(surface.facets.size(), false);
+  const auto note = [&](const std::vector<unsigned int> &facets)
+  {
+    for (const unsigned int f : facets)
+      is_near[f] = true;
+  };
+  note(contact::find_coming_contact<dim>(surface, motion, margins,
+                                         [&](unsigned int body, unsigned int other)
+                                         { return may_touch(body, scene.body_names[other]); }));
+  for (const auto &obstacle : scene.obstacles)
+    note(contact::find_coming_contact<dim>(surface, motion, margins, *obstacle->moved(-surface.origin),
+                                           [&](unsigned int body)
+                                           { return may_touch(body, obstacle->name()); }));
+
+  std::vector<bool> is_near_contact(discretization.cells.n_cells, false);
+  for (const CellOfFacet &cell : cells)
+    if (is_near[cell.facet])
+      is_near_contact[cell.own_cell] = true;
+  return is_near_contact;
+}
+
+template <int dim>
+bool mark_cells_in_motion(const std::vector<bool> &is_near_contact, OtherCells others,
+                          const ErrorEstimate &estimate, const AdaptivityParameters &parameters,
+                          const FileLevels<dim> &file_levels, Discretization<dim> &discretization)
+{
+  // By class of the error: large ones first.
+  unsigned int end_of_large = 0, begin_of_small = others == OtherCells::coarser ? 0 : ErrorClasses::n_classes;
+  const ErrorClasses errors(estimate, discretization.communicator());
+  if (others == OtherCells::by_error)
+  {
+    end_of_large = errors.end_of_largest(parameters.refine_share);
+    begin_of_small = std::max(end_of_large, errors.begin_of_smallest(parameters.coarsen_share));
+  }
+  const bool may_refine = discretization.n_dofs() < parameters.max_n_dofs;
+  unsigned int own_cell = 0;
+  for (const auto &cell : discretization.mesh->active_cell_iterators())
+    if (cell->is_locally_owned())
+    {
+      const unsigned int extra_levels = cell->level() - file_levels.level_at(cell);
+      const unsigned int error_class =
+          others == OtherCells::by_error ? errors.class_of(estimate.cell_discretization[own_cell]) : 0;
+      if (is_near_contact[own_cell++] || error_class < end_of_large)
+      {
+        if (may_refine && extra_levels < parameters.max_levels)
+          cell->set_refine_flag();
+      }
+      else if (extra_levels > 0 && error_class >= begin_of_small)
+        cell->set_coarsen_flag();
+    }
+  discretization.mesh->prepare_coarsening_and_refinement();
+  bool is_any = false;
+  for (const auto &cell : discretization.mesh->active_cell_iterators())
+    is_any |= cell->is_locally_owned() && (cell->refine_flag_set() || cell->coarsen_flag_set());
+  return dealii::Utilities::MPI::max(static_cast<int>(is_any), discretization.communicator()) == 1;
+}
+
+template std::vector<bool> find_cells_near_contact(const Scene<2> &, const ContactParameters &,
+                                                   const Discretization<2> &, const SurfaceMap<2> &,
+                                                   const FileLevels<2> &, const State &, double);
+template std::vector<bool> find_cells_near_contact(const Scene<3> &, const ContactParameters &,
+                                                   const Discretization<3> &, const SurfaceMap<3> &,
+                                                   const FileLevels<3> &, const State &, double);
+template bool mark_cells_in_motion(const std::vector<bool> &, OtherCells, const ErrorEstimate &,
+                                   const AdaptivityParameters &, const FileLevels<2> &, Discretization<2> &);
+template bool mark_cells_in_motion(const std::vector<bool> &, OtherCells, const ErrorEstimate &,
+                                   const AdaptivityParameters &, const FileLevels<3> &, Discretization<3> &);
+} // namespace signorini

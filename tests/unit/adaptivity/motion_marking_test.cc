@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "signorini/adaptivity/motion_marking.h"
+
+#include "signorini/adaptivity/motion_transfer.h"
+
+#include "../contact_bodies.h"
+
+using namespace signorini;
+using namespace signorini::test;
+
+namespace
+{
+template <typename T>
+class MotionMarking : public testing::Test
+{
+};
+TYPED_TEST_SUITE(MotionMarking, LinearCases);
+
+/// A ball over a graded block.
+template <int dim>
+struct Approach
+{
+  explicit Approach(double gap)
+      : built({make_moved_ball(gap), graded(make_box("block", {4., 4., 4.}, {4, 4, 4}), {0., 0., 0.}, 1, .5)},
+              1),
+        levels(built.parameters.bodies)
+  {
+    adaptivity.max_levels = 2;
+  }
+
+  static BodyParameters make_moved_ball(double gap)
+  {
+    BodyParameters ball = make_ball("ball", 1., 1);
+    ball.placement.shift = {2., 2., 2.};
+    ball.placement.shift[dim - 1] = 5. + gap;
+    return ball;
+  }
+
+  /// Adapts until nothing changes; returns how often.
+  unsigned int adapt(double speed, OtherCells others)
+  {
+    unsigned int n = 0;
+    for (; n < 10; ++n)
+    {
+      for (const OwnedNode<dim> &node : built.discretization.owned_nodes)
+        built.state.velocity.local_element(node.dofs[dim - 1]) = node.body == 0 ? speed : 0.;
+      built.discretization.distribute(built.state.velocity);
+      const SurfaceMap<dim> map(built.scene, built.discretization);
+      const std::vector<bool> is_near = find_cells_near_contact(
+          built.scene, ContactParameters(), built.discretization, map, levels, built.state, 1.);
+      if (!mark_cells_in_motion(is_near, others, ErrorEstimate(), adaptivity, levels, built.discretization))
+        break;
+      adapt_in_motion(built.scene, built.discretization, built.state);
+    }
+    return n;
+  }
+
+  /// The most refinements of a cell of the file's mesh, by body.
+  std::array<unsigned int, 2> extra_levels() const
+  {
+    std::array<unsigned int, 2> most{};
+    for (const auto &cell : built.discretization.mesh->active_cell_iterators())
+      if (cell->is_locally_owned())
+        most[cell->material_id()] =
+            std::max(most[cell->material_id()], cell->level() - levels.level_at(cell));
+    for (unsigned int &of_body : most)
+      of_body = dealii::Utilities::MPI::max(of_body, MPI_COMM_WORLD);
+    return most;
+  }
+
+  BuiltScene<dim> built;
+  FileLevels<dim> levels;
+  AdaptivityParameters adaptivity;
+};
+
+TYPED_TEST(MotionMarking, ContactThatIsComingIsRefinedAndContactThatIsGoneIsNot)
+{
+  constexpr int dim = TypeParam::dim;
+  Approach<dim> approach(2.);
+  const auto n_of_file = approach.built.discretization.mesh->n_global_active_cells();
+  EXPECT_EQ(approach.adapt(0., OtherCells::coarser), 0u) << "a ball at rest meets nothing";
+  EXPECT_EQ(approach.adapt(-1.95, OtherCells::coarser), 2u) << "level by level";
+  EXPECT_EQ(approach.extra_levels(), (std::array<unsigned int, 2>{2, 2}));
+  EXPECT_LT(approach.built.discretization.mesh->n_global_active_cells(), (1u << dim) * n_of_file);
+  EXPECT_EQ(approach.adapt(0., OtherCells::as_they_are), 0u);
+  EXPECT_EQ(approach.adapt(0., OtherCells::coarser), 2u);
+  EXPECT_EQ(approach.built.discretization.mesh->n_global_active_cells(), n_of_file)
+      << "the mesh of the file, graded as it was";
+}
+} // namespace
