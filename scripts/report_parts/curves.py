@@ -132,6 +132,25 @@ def support_force(run):
     return forces(run, "support force ", "Force of the supports")
 
 
+def estimated_error(run):
+    """Both parts of the estimated error over the load."""
+    table = run.statistics
+    progress = axis_of(table)
+    names = [name for name in ("estimated discretization error", "estimated contact error")
+             if table.has_values(name) and any(finite(table[name]))]
+    if not progress or not names:
+        return None
+    figure, axes = plt.subplots()
+    for name in names:
+        axes.plot(table[progress], table[name], label=name.removeprefix("estimated ").removesuffix(" error"),
+                  **dots(table))
+    axes.set(title="Estimated error in the energy norm", xlabel=table.label(progress),
+             ylabel="over the norm of the solution [1]")
+    axes.set_ylim(bottom=0)
+    axes.legend(fontsize=8)
+    return figure
+
+
 def run_time(run):
     """Seconds of every section of the program, the longest first; the rest of the total as a bar of its own."""
     times = run.summary.get("run_time", {})
@@ -177,4 +196,4 @@ def dots(table):
 #: file name, drawing function
 ALL = [("contact_pressure", contact_pressure), ("contact_force", contact_force), ("largest_pressure", largest_pressure),
        ("penetration", penetration), ("energy", energy_ledger), ("support_force", support_force),
-       ("contact_area", contact_area), ("run_time", run_time)]
+       ("contact_area", contact_area), ("estimated_error", estimated_error), ("run_time", run_time)]

@@ -46,6 +46,7 @@ ALTERNATIVES = {
     "energy": "Energies over time or load", "penetration": "Greatest penetration over time or load",
     "contact_force": "Contact forces over time or load", "contact_area": "Contact area over time or load",
     "support_force": "Forces of the supports over the load",
+    "estimated_error": "Both parts of the estimated error over the load",
     "largest_pressure": "Largest contact pressure over time or load",
     "run_time": "Seconds by section of the program",
     "error_time": "Error against run time", "error_dofs": "Error against degrees of freedom",
