@@ -48,7 +48,7 @@ def main(directory, stem, times):
     table = scene.colour_table(largest)
     scene.SIZE = (720, 640)
     view = scene.camera(False, numpy.array([0.25, -0.9, 0.35]), (lower + upper) / 2,
-                        0.3 * float(numpy.linalg.norm(upper - lower)))
+                        0.35 * float(numpy.linalg.norm(upper - lower)))
     for number, grids in enumerate(moments, start=1):
         actors = []
         for grid in grids:
