@@ -81,11 +81,13 @@ void level_out(const ContactSurface<dim> &surface, std::vector<int> &levels)
 
 template <int dim>
 void level_curved_contact(const std::vector<BoundaryFace<dim>> &faces, const NodalPressures<dim> &pressures,
-                          const SurfaceMap<dim> &map, Discretization<dim> &discretization)
+                          double penalty_factor, const SurfaceMap<dim> &map,
+                          Discretization<dim> &discretization)
 {
   if (dim == 2)
     return; // nodes of a boundary curve do not hang
-  constexpr double tolerance = 0.05, pressure_of_kink = 4.;
+  const bool is_straight = discretization.element.degree == 1;
+  const double tolerance = is_straight ? 0.1 : 0.05, pressure_of_kink = is_straight ? penalty_factor : 4.;
   const ContactSurface<dim> &surface = map.surface();
   const std::vector<Cell<dim>> cells = collect_own_cells(discretization);
   double peak = 0.;
@@ -102,8 +104,25 @@ void level_curved_contact(const std::vector<BoundaryFace<dim>> &faces, const Nod
     if (largest_pressure(face, pressures) > 0. && kink > tolerance * peak)
       levels[face.facet] = level_to_be<dim>(cells[face.cell]);
   }
-  MPI_Allreduce(MPI_IN_PLACE, levels.data(), static_cast<int>(levels.size()), MPI_INT, MPI_MAX,
-                discretization.communicator());
+  const auto share = [&]()
+  {
+    MPI_Allreduce(MPI_IN_PLACE, levels.data(), static_cast<int>(levels.size()), MPI_INT, MPI_MAX,
+                  discretization.communicator());
+  };
+  share();
+  // On the next mesh contact may reach a little farther.
+  std::vector<bool> is_concerned(surface.n_nodes(), false);
+  for (unsigned int f = 0; f < levels.size(); ++f)
+    for (unsigned int i = 0; i < surface.facets[f].n_nodes() && levels[f] != not_concerned; ++i)
+      is_concerned[surface.facets[f].nodes[i]] = true;
+  for (const BoundaryFace<dim> &face : faces)
+  {
+    const auto &nodes = surface.facets[face.facet].nodes;
+    if (std::any_of(nodes.begin(), nodes.begin() + surface.facets[face.facet].n_nodes(),
+                    [&](unsigned int node) { return is_concerned[node]; }))
+      levels[face.facet] = level_to_be<dim>(cells[face.cell]);
+  }
+  share();
   level_out(surface, levels);
   for (const BoundaryFace<dim> &face : faces)
     if (levels[face.facet] > level_to_be<dim>(cells[face.cell]))
@@ -114,8 +133,8 @@ void level_curved_contact(const std::vector<BoundaryFace<dim>> &faces, const Nod
     }
 }
 
-template void level_curved_contact(const std::vector<BoundaryFace<2>> &, const NodalPressures<2> &,
+template void level_curved_contact(const std::vector<BoundaryFace<2>> &, const NodalPressures<2> &, double,
                                    const SurfaceMap<2> &, Discretization<2> &);
-template void level_curved_contact(const std::vector<BoundaryFace<3>> &, const NodalPressures<3> &,
+template void level_curved_contact(const std::vector<BoundaryFace<3>> &, const NodalPressures<3> &, double,
                                    const SurfaceMap<3> &, Discretization<3> &);
 } // namespace signorini

@@ -30,6 +30,12 @@ void Simulation<dim>::adapt_to_load()
     if (is_last || is_within(estimate.total()) ||
         (!estimate.is_any_contact_unseen && estimate.discretization == 0.))
       return;
+    check_interruption(
+        [&]()
+        {
+          record_quasi_static();
+          write_fields();
+        });
     adapt_mesh();
     check_adapted(solve_load_step(state.time));
     estimate_error();
@@ -64,8 +70,8 @@ void Simulation<dim>::adapt_mesh()
   const auto section = run_time.enter("refinement");
   mark_cells(results.estimate, *parameters.adaptivity, *discretization);
   if (surface_map)
-    level_curved_contact(estimator->boundary_faces(), estimator->contact_pressures(), *surface_map,
-                         *discretization);
+    level_curved_contact(estimator->boundary_faces(), estimator->contact_pressures(), results.penalty_factor,
+                         *surface_map, *discretization);
   discretization->adapt({&state.displacement});
   build_on_mesh();
   // New supported nodes have values between those of the old ones, not their own.
