@@ -43,6 +43,40 @@ void Discretization<dim>::set_up()
 template <int dim>
 void Discretization<dim>::adapt(const std::vector<Vector *> &values)
 {
+  mesh->prepare_coarsening_and_refinement();
+  change_mesh(values, [this]() { mesh->execute_coarsening_and_refinement(); });
+}
+
+template <int dim>
+double Discretization<dim>::imbalance(const std::vector<unsigned int> &weights) const
+{
+  const double own = std::accumulate(weights.begin(), weights.end(), 0.);
+  const dealii::Utilities::MPI::MinMaxAvg loads = dealii::Utilities::MPI::min_max_avg(own, mpi_communicator);
+  return loads.max / loads.avg;
+}
+
+template <int dim>
+bool Discretization<dim>::balance(const std::vector<unsigned int> &weights,
+                                  const std::vector<Vector *> &values)
+{
+  constexpr double tolerated_imbalance = 1.1;
+  if (imbalance(weights) <= tolerated_imbalance)
+    return false;
+  std::vector<unsigned int> weight_of_cell(mesh->n_active_cells(), 0);
+  unsigned int own_cell = 0;
+  for (const auto &cell : mesh->active_cell_iterators())
+    if (cell->is_locally_owned())
+      weight_of_cell[cell->active_cell_index()] = weights[own_cell++];
+  const boost::signals2::scoped_connection connection = mesh->signals.weight.connect(
+      [&](const auto &cell, const auto &) { return weight_of_cell[cell->active_cell_index()]; });
+  change_mesh(values, [this]() { mesh->repartition(); });
+  return true;
+}
+
+template <int dim>
+void Discretization<dim>::change_mesh(const std::vector<Vector *> &values,
+                                      const std::function<void()> &change)
+{
   std::vector<Vector> old_values;
   for (const Vector *vector : values)
     old_values.push_back(*vector);
@@ -54,9 +88,8 @@ void Discretization<dim>::adapt(const std::vector<Vector *> &values)
     old_pointers.push_back(&vector);
   }
   dealii::parallel::distributed::SolutionTransfer<dim, Vector> transfer(dof_handler);
-  mesh->prepare_coarsening_and_refinement();
   transfer.prepare_for_coarsening_and_refinement(old_pointers);
-  mesh->execute_coarsening_and_refinement();
+  change();
 
   hanging_dofs.clear();
   cells = CellTable<dim>();

@@ -161,7 +161,9 @@ make_scene_mesh(const std::vector<BodyParameters> &bodies, const MPI_Comm &commu
   for (unsigned int body = 0; body < bodies.size(); ++body)
     append_body(bodies[body], body, scene);
 
-  auto mesh = std::make_unique<dealii::parallel::distributed::Triangulation<dim>>(communicator);
+  using Mesh = dealii::parallel::distributed::Triangulation<dim>;
+  auto mesh = std::make_unique<Mesh>(communicator, dealii::Triangulation<dim>::none,
+                                     Mesh::no_automatic_repartitioning);
   mesh->create_triangulation(scene.vertices, scene.cells, scene.faces);
   for (unsigned int body = 0; body < bodies.size(); ++body)
     set_manifold(bodies[body], body, *mesh);
@@ -172,6 +174,7 @@ make_scene_mesh(const std::vector<BodyParameters> &bodies, const MPI_Comm &commu
       if (cell->is_locally_owned() && levels.is_refined(cell))
         cell->set_refine_flag();
     mesh->execute_coarsening_and_refinement();
+    mesh->repartition();
   }
   return mesh;
 }

@@ -77,9 +77,21 @@ void Simulation<dim>::adapt_mesh()
   // New supported nodes have values between those of the old ones, not their own.
   supports->impose(state.time, state.displacement);
   discretization->distribute(state.displacement);
+  balance_work({&state.displacement});
   make_quasi_static_solver();
   fields->set_mesh(*discretization, surface_map.get());
   measure_bodies();
+}
+
+template <int dim>
+void Simulation<dim>::balance_work(const std::vector<Vector *> &values)
+{
+  if (dealii::Utilities::MPI::n_mpi_processes(communicator) == 1)
+    return;
+  for (const auto &contact : forces.contacts)
+    contact->renew(state);
+  if (discretization->balance(find_cell_work(*discretization, estimator->boundary_faces(), forces), values))
+    build_on_mesh();
 }
 
 template class Simulation<2>;

@@ -62,6 +62,7 @@ void Simulation<dim>::adapt_in_explicit_run(double time_step)
     }
     build_on_mesh();
   } while (++n_rounds < adaptivity.max_levels && mark_in_motion(duration, OtherCells::as_they_are));
+  balance_work({&state.displacement, &state.velocity});
 
   const std::unique_ptr<ExplicitSolver<dim>> before = std::move(explicit_solver);
   make_explicit_solver();

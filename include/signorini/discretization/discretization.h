@@ -12,6 +12,7 @@
 #include <deal.II/lac/affine_constraints.h>
 
 #include <array>
+#include <functional>
 #include <memory>
 
 namespace signorini
@@ -40,8 +41,18 @@ public:
   Discretization(const Parameters &parameters, const MPI_Comm &communicator);
 
   /// Refines and coarsens the mesh by the flags of its cells, numbers everything anew and carries `values`
-  /// over by interpolation (collective). Whatever was made from this object before is void.
+  /// over by interpolation (collective). Whatever was made from this object before is void. New cells stay on
+  /// the rank that had those they came from.
   void adapt(const std::vector<Vector *> &values);
+
+  /// Largest sum of `weights`, one for each own cell, of any rank over the mean of all ranks (collective).
+  double imbalance(const std::vector<unsigned int> &weights) const;
+
+  /// Shares the cells out among the ranks anew, so that each has about the same sum of `weights`, positive
+  /// ones of its own cells, and carries `values` over as they are (collective). Does nothing where no rank
+  /// has more than 1.1 of the mean. Returns whether it did; then whatever was made from this object before
+  /// is void.
+  bool balance(const std::vector<unsigned int> &weights, const std::vector<Vector *> &values);
 
   /// A zero vector with ghost entries for all that this rank's cells need.
   Vector make_vector() const;
@@ -76,6 +87,8 @@ public:
 
 private:
   void set_up();
+  /// Numbers everything anew after `change` of the mesh and carries `values` over.
+  void change_mesh(const std::vector<Vector *> &values, const std::function<void()> &change);
   void number_dofs();
   void close_mapping();
   void fill_cell_table();

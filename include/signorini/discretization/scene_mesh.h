@@ -40,6 +40,7 @@ private:
 
 /// All bodies of a scene in one distributed mesh. Bodies share no vertex, touching or not; a cell's material
 /// id is the index of its body. Curved boundaries stay on their manifolds under refinement; grading is done.
+/// Every rank has the same number of cells; later refinement moves none of them.
 template <int dim>
 std::unique_ptr<dealii::parallel::distributed::Triangulation<dim>>
 make_scene_mesh(const std::vector<BodyParameters> &bodies, const MPI_Comm &communicator);

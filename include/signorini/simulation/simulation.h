@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
+#include "signorini/adaptivity/cell_work.h"
 #include "signorini/adaptivity/contact_correction.h"
 #include "signorini/adaptivity/error_estimator.h"
 #include "signorini/adaptivity/motion_marking.h"
@@ -63,6 +64,8 @@ private:
   double next_time_step(double end_time) const;
   void record_explicit(double time_step, double end_time);
   void make_explicit_solver();
+  /// Shares an adapted mesh out by the work of its cells, and builds what stands on it anew, where that pays.
+  void balance_work(const std::vector<Vector *> &values);
   bool is_adaptation_due(double time_step) const;
   /// Flags cells for what is to come within `duration`; whether there are any.
   bool mark_in_motion(double duration, OtherCells others);

@@ -278,6 +278,16 @@ NodalPressures<dim> ContactForce<dim>::facet_pressures() const
 }
 
 template <int dim>
+std::vector<unsigned int> ContactForce<dim>::n_pairs_of_facets() const
+{
+  std::vector<unsigned int> n_pairs(map->surface().facets.size(), 0);
+  for (const auto *pairs : {&potential.pair_list().body_pairs(), &potential.pair_list().obstacle_pairs()})
+    for (const auto &pair : *pairs)
+      ++n_pairs[pair.facet];
+  return n_pairs;
+}
+
+template <int dim>
 std::vector<contact::ContactSample<dim>> ContactForce<dim>::samples() const
 {
   std::vector<contact::ContactSample<dim>> samples = potential.samples();

@@ -70,6 +70,9 @@ public:
   /// See PairList::set_multipliers(); of this rank's facets.
   void set_multipliers(const NodalPressures<dim> &multipliers) { potential.set_multipliers(multipliers); }
 
+  /// How many pairs each of this rank's facets has, near its targets or in contact, [facet].
+  std::vector<unsigned int> n_pairs_of_facets() const;
+
   /// This rank's points.
   std::vector<contact::ContactSample<dim>> samples() const;
 
