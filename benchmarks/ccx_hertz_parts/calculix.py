@@ -53,11 +53,12 @@ def touching_faces(mesh):
 
 
 def read_contact(text):
-    """Force, area and largest pressure of the octant's contact from the .dat file: the last of what it holds."""
+    """Force, its moment about an axis in the plane and largest pressure of the octant's contact from the .dat file: the
+    last of what it holds."""
     _, stresses = text.rsplit("contact stress (slave element+face,press,tang1,tang2)", 1)
     stresses, statistics = stresses.split("statistics for slave set", 1)
     rows = [line.split() for line in stresses.splitlines()[1:]]
     pressures = [float(row[2]) for row in rows if len(row) == 5]
-    _, last = statistics.rsplit("area,  normal force (+ = tension) and shear force (size)", 1)
-    area, force, _ = map(float, last.split()[:3])
-    return -force, area, max(pressures)
+    _, last = statistics.rsplit("total surface force (fx,fy,fz) and moment about the origin (mx,my,mz)", 1)
+    _, _, force, moment = map(float, last.split()[:4])
+    return -force, -moment, max(pressures)

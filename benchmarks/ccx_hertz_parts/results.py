@@ -72,7 +72,7 @@ def describe_cheapest(series, tolerance):
 
 
 def draw(path, runs):
-    figure, plots = plt.subplots(1, 2, figsize=(10, 4.4), sharey=True, constrained_layout=True)
+    figure, plots = plt.subplots(1, 2, figsize=(12, 4.4), sharey=True, constrained_layout=True)
     for axes, name in zip(plots, JUDGED):
         for (code, label), members in group(runs).items():
             theirs = code == "CalculiX"
@@ -83,5 +83,5 @@ def draw(path, runs):
         axes.set(title=name, xlabel="core-seconds of the whole run")
         axes.grid(True, which="major", color="0.9")
     plots[0].set_ylabel("relative error")
-    plots[1].legend(fontsize=8)
+    plots[1].legend(fontsize=8, loc="center left", bbox_to_anchor=(1, 0.5))
     figure.savefig(path, dpi=150)
