@@ -59,7 +59,7 @@ Json describe_contact(const Results<dim> &results)
 {
   const contact::ContactMeasures<dim> &contact = results.contact;
   Json description{{"alpha", results.penalty_factor},
-                   {"effective_stiffness", contact.max_stiffness},
+                   {"effective_stiffness", results.max_stiffness},
                    {"max_penetration", contact.max_penetration},
                    {"max_penetration_over_h", contact.max_penetration_over_thickness},
                    {"max_pressure", contact.max_pressure},

@@ -107,12 +107,13 @@ void declare_contact(Declarations &declarations, const DeclarationScope &scope)
   SubsectionDeclaration contact(declarations, "Contact",
                                 "Contact of bodies with each other and with obstacles.");
   contact.add(
-      "Penalty factor", or_word(positive_number(), "auto"), "10", "",
+      "Penalty factor", or_word(number_from_up_to(1e-6, 1e9), "auto"), "10", "",
       "α: stiffness of the contact relative to that of the cells behind it; auto (quasi-static runs): "
-      "as large as the estimated errors ask for.");
-  contact.add("Contact share", number_above_up_to(0., 1.), "0.25", "",
-              "Penalty factor = auto: estimated error by contact over that of discretization, in the energy "
-              "norm.");
+      "between 1 and 1e6, as large as the estimated errors ask for.");
+  contact.add(
+      "Contact share", number_above_up_to(0., 1.), "0.25", "",
+      "Penalty factor = auto: square of the estimated error by contact over that of discretization, which is "
+      "about the ratio of their parts in the way of the loads; a quarter more is let pass.");
   contact.add("Integration", one_of(names_in(integrations())), "automatic", "",
               "Automatic: face segments in quasi-static runs, face quadrature in explicit ones.");
   contact.add("Quadrature points", integer_from(1, 8), "3", "",

@@ -49,35 +49,6 @@ std::optional<InitialOverlap<dim>> choose_deepest(const std::optional<InitialOve
                  of_rank[3], SpatialVector<dim>(&of_rank[4])};
   return deepest;
 }
-
-/// Points of a facet no farther apart than half the thickness of the element behind it: what lies across a
-/// long element may hold none of its nodes.
-template <int dim>
-std::vector<SpatialVector<dim>> sprinkle(const Facet<dim> &facet,
-                                         const std::vector<SpatialVector<dim>> &positions)
-{
-  constexpr double most = 64.;
-  const auto nodes = contact::gather_nodes(facet, positions);
-  std::array<unsigned int, 2> n_steps{{0, 0}};
-  for (unsigned int direction = 0; direction < dim - 1; ++direction)
-  {
-    const unsigned int end = facet.degree * (direction == 0 ? 1 : facet.degree + 1);
-    const double length = (nodes.position[end] - nodes.position[0]).norm();
-    n_steps[direction] =
-        static_cast<unsigned int>(std::clamp(std::ceil(2. * length / facet.layer_thickness), 1., most));
-  }
-  std::vector<SpatialVector<dim>> points;
-  for (unsigned int j = 0; j <= n_steps[1]; ++j)
-    for (unsigned int i = 0; i <= n_steps[0]; ++i)
-    {
-      LocalPoint<dim> xi;
-      xi[0] = static_cast<double>(i) / n_steps[0];
-      if constexpr (dim == 3)
-        xi[1] = static_cast<double>(j) / n_steps[1];
-      points.push_back(contact::evaluate_facet_frame(nodes, xi).position);
-    }
-  return points;
-}
 } // namespace
 
 template <int dim>
@@ -147,7 +118,8 @@ void OverlapSearch<dim>::for_each_point(
       visit(cell->material_id(), to_eigen<dim>(cell->center()));
   for (const Facet<dim> &facet : surface.facets)
     if (facet.owned)
-      for (const SpatialVector<dim> &x : sprinkle(facet, positions))
+      // What lies across a long element may hold none of its nodes.
+      for (const SpatialVector<dim> &x : contact::make_lattice(facet, positions, 0.5 * facet.layer_thickness))
         visit(facet.body, x);
 }
 

@@ -134,6 +134,14 @@ void Simulation<dim>::estimate_error()
 {
   const auto section = run_time.enter("error estimate");
   results.estimate = estimator->estimate(state);
+  // Beside the largest energy of the run, or the square of strains of 1e-10, an error is round-off.
+  double stiffness = 0.;
+  for (unsigned int body = 0; body < results.body_volumes.size(); ++body)
+    stiffness += scene.materials[body].youngs_modulus * results.body_volumes[body];
+  ErrorEstimate &estimate = results.estimate;
+  largest_energy = std::max(largest_energy, estimate.energy);
+  if (estimate.energy + estimate.discretization <= std::max(1e-8 * largest_energy, 1e-20 * stiffness))
+    estimate.forget_errors();
 }
 
 template <int dim>

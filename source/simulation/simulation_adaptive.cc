@@ -27,9 +27,21 @@ void Simulation<dim>::adapt_to_load()
       check_adapted(correct_contact(state.time));
       estimate_error();
     }
-    if (is_last || is_within(estimate.total()) ||
+    const bool is_penalty_in_the_way =
+        is_within(estimate.discretization) && estimate.contact > estimate.discretization;
+    if (is_last || is_within(estimate.total()) || is_penalty_in_the_way ||
         (!estimate.is_any_contact_unseen && estimate.discretization == 0.))
+    {
+      if (adaptivity.target_error > 0. && !is_within(estimate.total()))
+        warn(fmt::format(
+            "at load {:.6g} refining ended with an estimated error of {:.2e}, above Adaptivity/Target "
+            "error = {}: {}",
+            state.time, estimate.relative(estimate.total()), adaptivity.target_error,
+            is_penalty_in_the_way ? "most of it is the penalty's; set Penalty factor = auto or "
+                                    "Contact/Correction"
+                                  : "raise Maximum cycles or Maximum dofs"));
       return;
+    }
     check_interruption(
         [&]()
         {

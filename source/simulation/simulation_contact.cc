@@ -127,6 +127,7 @@ void Simulation<dim>::record_contact()
   results.max_pressure = std::max(results.max_pressure, now.max_pressure);
   results.max_area = std::max(results.max_area, now.area);
   results.max_n_pairs = std::max(results.max_n_pairs, now.n_pairs);
+  results.max_stiffness = std::max(results.max_stiffness, now.max_stiffness);
 }
 
 template <int dim>

@@ -62,8 +62,13 @@ std::optional<Complaint> Simulation<dim>::choose_penalty_factor(double time)
     if (estimate.is_any_contact_unseen || estimate.contact == 0. || estimate.discretization == 0.)
       return {};
     const double share = parameters.contact->contact_share, old_factor = results.penalty_factor;
-    const double wanted = std::clamp(
-        old_factor * estimate.contact / (share * share * estimate.discretization), smallest, largest);
+    const double wanted =
+        std::clamp(old_factor * estimate.contact / (share * estimate.discretization), smallest, largest);
+    if (wanted == largest && old_factor == largest && estimate.contact > share * estimate.discretization)
+      warn(fmt::format(
+          "Penalty factor = auto ends at {:g}, where the error by contact is still {:.2g} of that of "
+          "discretization: raise Contact/Contact share, or set Contact/Correction",
+          largest, std::sqrt(estimate.contact / estimate.discretization)));
     if (wanted < too_soft * old_factor && old_factor < too_stiff * wanted)
       return {};
     const unsigned int n_before = results.n_iterations;

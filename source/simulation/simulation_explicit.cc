@@ -41,13 +41,13 @@ void Simulation<dim>::run_explicit(const ExplicitParameters &solver_parameters)
     record_contact();
     if (const std::optional<Complaint> fault = find_deep_penetration(results.contact))
       throw NumericalError(*fault);
-    if (state.time >= end * row / n_rows)
+    if (state.time >= end || state.time >= end * row / n_rows)
     {
       explicit_solver->take_stock(state);
       record_explicit(time_step, end);
       row = 1 + static_cast<unsigned int>(std::floor(state.time / end * n_rows));
     }
-    if (state.time >= end * field / n_fields)
+    if (state.time >= end || state.time >= end * field / n_fields)
     {
       estimate_error();
       write_fields();

@@ -39,6 +39,8 @@ std::optional<Complaint> Simulation<dim>::solve_load_step(double time)
 {
   const State before = state;
   const double penalty_factor_before = results.penalty_factor;
+  const std::optional<double> change_before = results.correction_change;
+  const ErrorEstimate estimate_before = results.estimate;
   std::optional<Complaint> fault = find_equilibrium(time);
   if (!fault && surface_map && !parameters.contact->penalty_factor)
     fault = choose_penalty_factor(time);
@@ -47,6 +49,8 @@ std::optional<Complaint> Simulation<dim>::solve_load_step(double time)
   if (!fault)
     return {};
   state = before;
+  results.correction_change = change_before;
+  results.estimate = estimate_before;
   if (results.penalty_factor != penalty_factor_before)
     set_penalty_factor(penalty_factor_before);
   return fault;

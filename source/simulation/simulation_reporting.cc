@@ -27,9 +27,14 @@ void Simulation<dim>::print_plan()
   for (const LeftOutPart &part : results.parts_left_out)
     progress.say(fmt::format("Left out: {} ({})", part.name, part.reason));
   if (results.has_contact)
-    progress.say(fmt::format(
-        "Contact: alpha = {}, k_A = {:.4g} Pa/m at most where surfaces are near, {} facets",
-        results.penalty_factor, results.contact.max_stiffness, surface_map->surface().facets.size()));
+  {
+    const double stiffness = measure_contact().max_stiffness;
+    progress.say(fmt::format("Contact: alpha = {}{}, {}, {} facets", results.penalty_factor,
+                             parameters.contact->penalty_factor ? "" : " to begin with",
+                             stiffness > 0. ? fmt::format("k_A = {:.4g} Pa/m at most", stiffness)
+                                            : "no surfaces are near yet",
+                             surface_map->surface().facets.size()));
+  }
   if (const auto *quasi_static = std::get_if<QuasiStaticParameters>(&parameters.solver))
     progress.say(
         fmt::format("Quasi-static: {} load steps to {}", quasi_static->load_steps, quasi_static->end_time));
@@ -50,7 +55,31 @@ void Simulation<dim>::print_plan()
                        "coarsen the smallest cells, or run Quasi-static",
                        n_steps));
   }
+  plan_adaptivity();
   progress.say(fmt::format("Memory after set-up: {:.0f} MB on all ranks", memory_mb()));
+}
+
+template <int dim>
+void Simulation<dim>::plan_adaptivity()
+{
+  if (!parameters.adaptivity)
+    return;
+  const AdaptivityParameters &adaptivity = *parameters.adaptivity;
+  const auto *quasi_static = std::get_if<QuasiStaticParameters>(&parameters.solver);
+  if (quasi_static == nullptr)
+  {
+    progress.say(
+        fmt::format("Adaptivity: every {} steps, up to {} levels beyond the file's mesh, each of which "
+                    "halves the time step",
+                    adaptivity.interval, adaptivity.max_levels));
+    return;
+  }
+  progress.say(fmt::format("Adaptivity: up to {} refinements in each load step", adaptivity.max_cycles));
+  if (quasi_static->load_steps > 1 && adaptivity.target_error == 0.)
+    warn(fmt::format(
+        "without Adaptivity/Target error each of the {} load steps refines {} times beyond the one "
+        "before, up to {} dofs: set Target error, or lower Maximum cycles or Maximum dofs",
+        quasi_static->load_steps, adaptivity.max_cycles, adaptivity.max_n_dofs));
 }
 
 template <int dim>
@@ -170,6 +199,11 @@ void Simulation<dim>::gather_results()
     results.displacement_error =
         measure_displacement_error(*discretization, scene.materials, state.displacement,
                                    parameters.exact_solution->displacement, state.time);
+  constexpr double silent = 0.01;
+  if (results.energy.max_adaptation > silent * results.energy.largest)
+    warn(fmt::format("an adaptation of the mesh changed the energy by {:.2g} of its largest: raise "
+                     "Adaptivity/Maximum levels ahead of contact, or lower Adaptivity/Interval",
+                     results.energy.max_adaptation / results.energy.largest));
   constexpr double shallow = 0.1;
   if (results.max_penetration_over_thickness > shallow)
     warn(fmt::format("the largest penetration of the run, {:.3g} h, exceeds {} h: raise Contact/Penalty "

@@ -106,10 +106,13 @@ double ForceBalance<dim>::judge(const State &state)
                             contact_round_off = compute_body_norms(compute_contact_round_off(state));
   relative_residuals.assign(norms.size(), 0.);
   round_off_shares.assign(norms.size(), 0.);
+  largest_magnitudes.resize(norms.size(), 0.);
   for (unsigned int body = 0; body < norms.size(); ++body)
   {
+    // A body that was unloaded keeps the round-off of the state that it came from.
+    largest_magnitudes[body] = std::max(largest_magnitudes[body], elastic_magnitudes[body]);
     const double scale = norms[body].scale(),
-                 round_off = epsilon * elastic_magnitudes[body] + contact_round_off[body];
+                 round_off = epsilon * largest_magnitudes[body] + contact_round_off[body];
     if (!std::isfinite(residuals[body] + scale))
       relative_residuals[body] = std::numeric_limits<double>::quiet_NaN();
     else if (norms[body].load > 0. || scale > 4. * round_off)

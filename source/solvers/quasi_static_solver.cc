@@ -247,6 +247,7 @@ void QuasiStaticSolver<dim>::find_equilibrium(double time, State &state, const R
 {
   for (const auto &term : balance.terms())
     term->renew(state);
+  balance.judge(state); // the forces to come from: what round-off is relative to
   move_supports(time, state);
   NewtonReport progress;
   double disturbance_before = std::numeric_limits<double>::max();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -16,6 +17,14 @@ struct ErrorEstimate
   double discretization = 0.;              ///< of all cells of all ranks
   double contact = 0.;
   double energy = 0.; ///< twice the elastic energy: the square of the solution's own norm
+
+  /// Of a state without load: what is left is round-off.
+  void forget_errors()
+  {
+    std::fill(cell_discretization.begin(), cell_discretization.end(), 0.);
+    std::fill(cell_contact.begin(), cell_contact.end(), 0.);
+    discretization = contact = 0.;
+  }
 
   double total() const { return discretization + contact; }
 

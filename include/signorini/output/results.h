@@ -85,6 +85,7 @@ struct Results
   double max_pressure = 0.;                   ///< of the whole run [Pa]
   double max_area = 0.;                       ///< of the whole run [m²; m in 2-D]
   unsigned int max_n_pairs = 0;
+  double max_stiffness = 0.;                ///< k_A, of the whole run [Pa/m]
   std::vector<ContactResultant> resultants; ///< at the end, of pairs that may touch
   std::vector<contact::ContactSample<dim>> samples;
   std::vector<unsigned int> sample_bodies;

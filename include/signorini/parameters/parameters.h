@@ -147,7 +147,8 @@ struct ContactParameters
     face_segments
   };
   std::optional<double> penalty_factor = 10.; ///< α > 0; none: chosen by the estimated errors
-  double contact_share = 0.25; ///< of the error by contact in that of discretisation, for the choice of α
+  double contact_share =
+      0.25; ///< of the squared error by contact in that of discretisation, for the choice of α
   Integration integration = Integration::automatic;
   unsigned int quadrature_points = 3; ///< a direction
   std::vector<std::pair<std::string, std::string>>

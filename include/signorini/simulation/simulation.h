@@ -110,6 +110,8 @@ private:
   void gather_nodal_pressures();
   void gather_extremes();
   void print_results();
+  /// The part of print_plan() on refinement.
+  void plan_adaptivity();
   double memory_mb() const;
 
   Parameters parameters;
@@ -126,6 +128,7 @@ private:
   Vector nodal_volume; ///< set when the run begins
   State state;
   std::vector<bool> is_body_held;
+  double largest_energy = 0.; ///< twice the largest elastic energy so far [J; J/m in 2-D]
 
   std::unique_ptr<ErrorEstimator<dim>> estimator;
   std::unique_ptr<ContactCorrection<dim>> correction;          ///< null unless the file asks for it

@@ -78,6 +78,7 @@ private:
 
   Vector free_forces, support_forces;
   std::vector<BodyNorms> norms;
+  std::vector<double> largest_magnitudes; ///< [body] of elastic forces before they cancel, so far [N]
   std::vector<double> relative_residuals, round_off_shares; ///< of every body at the last judgement
 };
 } // namespace signorini

@@ -93,6 +93,32 @@ FacetFrame<dim> evaluate_facet_frame(const FacetNodes<dim> &nodes, const LocalPo
 }
 
 template <int dim>
+std::vector<SpatialVector<dim>> make_lattice(const Facet<dim> &facet,
+                                             const std::vector<SpatialVector<dim>> &positions, double spacing)
+{
+  constexpr double most = 64.;
+  const FacetNodes<dim> nodes = gather_nodes(facet, positions);
+  std::array<unsigned int, 2> n_steps{{0, 0}};
+  for (unsigned int direction = 0; direction < dim - 1; ++direction)
+  {
+    const unsigned int end = facet.degree * (direction == 0 ? 1 : facet.degree + 1);
+    const double length = (nodes.position[end] - nodes.position[0]).norm();
+    n_steps[direction] = static_cast<unsigned int>(std::clamp(std::ceil(length / spacing), 1., most));
+  }
+  std::vector<SpatialVector<dim>> points;
+  for (unsigned int j = 0; j <= n_steps[1]; ++j)
+    for (unsigned int i = 0; i <= n_steps[0]; ++i)
+    {
+      LocalPoint<dim> xi;
+      xi[0] = static_cast<double>(i) / n_steps[0];
+      if constexpr (dim == 3)
+        xi[1] = static_cast<double>(j) / n_steps[1];
+      points.push_back(evaluate_facet_frame(nodes, xi).position);
+    }
+  return points;
+}
+
+template <int dim>
 LocalPoint<dim> node_coordinates(const Facet<dim> &facet, unsigned int i)
 {
   LocalPoint<dim> xi;
@@ -111,6 +137,10 @@ double evaluate_hat_function(const Facet<dim> &facet, unsigned int i, const Loca
   return value;
 }
 
+template std::vector<SpatialVector<2>> make_lattice(const Facet<2> &, const std::vector<SpatialVector<2>> &,
+                                                    double);
+template std::vector<SpatialVector<3>> make_lattice(const Facet<3> &, const std::vector<SpatialVector<3>> &,
+                                                    double);
 template LocalPoint<2> node_coordinates(const Facet<2> &, unsigned int);
 template LocalPoint<3> node_coordinates(const Facet<3> &, unsigned int);
 template double evaluate_hat_function(const Facet<2> &, unsigned int, const LocalPoint<2> &);

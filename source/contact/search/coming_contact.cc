@@ -30,26 +30,6 @@ SpatialVector<dim> mean_velocity(const Facet<dim> &facet, const StraightMotion<d
   return sum / facet.n_nodes();
 }
 
-/// Corners, middles of the edges and the middle of a facet.
-template <int dim>
-std::vector<SpatialVector<dim>> make_lattice(const Facet<dim> &facet,
-                                             const std::vector<SpatialVector<dim>> &positions)
-{
-  constexpr unsigned int n = (dim == 2 ? 3 : 9);
-  std::vector<SpatialVector<dim>> points(n, SpatialVector<dim>::Zero());
-  for (unsigned int i = 0; i < n; ++i)
-  {
-    LocalPoint<dim> xi;
-    xi[0] = 0.5 * (i % 3);
-    if constexpr (dim == 3)
-      xi[1] = 0.5 * (i / 3);
-    const FacetShape<dim> shape = evaluate_facet_shape<dim>(facet.degree, xi);
-    for (unsigned int a = 0; a < facet.n_nodes(); ++a)
-      points[i] += shape.value[a] * positions[facet.nodes[a]];
-  }
-  return points;
-}
-
 template <int dim>
 class ComingContactSearch
 {
@@ -132,7 +112,7 @@ private:
   bool is_any_near(unsigned int f, const std::vector<TreeEntry<dim>> &near, double margin) const
   {
     const Facet<dim> &facet = surface.facets[f];
-    const std::vector<SpatialVector<dim>> lattice = make_lattice(facet, motion.positions);
+    const std::vector<SpatialVector<dim>> lattice = make_lattice(facet, motion.positions, margin);
     for (const TreeEntry<dim> &entry : near)
     {
       const Facet<dim> &other = surface.facets[entry.second];
@@ -199,7 +179,7 @@ find_coming_contact(const ContactSurface<dim> &surface, const StraightMotion<dim
     const Facet<dim> &facet = surface.facets[f];
     if (!facet.owned || !is_allowed_body(facet.body))
       continue;
-    obstacle.find_feet(make_lattice(facet, motion.positions), feet);
+    obstacle.find_feet(make_lattice(facet, motion.positions, margins[f]), feet);
     const double reach =
         margins[f] +
         motion.duration * largest_speed(facet, motion, SpatialVector<dim>(SpatialVector<dim>::Zero()));

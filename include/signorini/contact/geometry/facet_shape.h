@@ -45,6 +45,12 @@ struct FacetNodes
 template <int dim>
 FacetNodes<dim> gather_nodes(const Facet<dim> &facet, const std::vector<SpatialVector<dim>> &positions);
 
+/// Points of a facet in equal steps of its local coordinates, corners included, no farther apart than
+/// `spacing` [m], but at most 65 a direction.
+template <int dim>
+std::vector<SpatialVector<dim>>
+make_lattice(const Facet<dim> &facet, const std::vector<SpatialVector<dim>> &positions, double spacing);
+
 /// Position and tangents of a facet at one local point.
 template <int dim>
 struct FacetFrame
