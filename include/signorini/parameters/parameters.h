@@ -1,33 +1,41 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
+#include "signorini/base/triple.h"
+#include "signorini/mesh/simplex_mesh.h"
+
 #include <array>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
 #include <variant>
 #include <vector>
 
-/// Plain structs, one a subsection of the parameter file, filled and checked by read_parameters(). Vectors
-/// have three components always; in two dimensions the third is zero. Units are SI or any other consistent
-/// set.
+/// Plain structs, one a subsection of the parameter file, filled and checked by read_parameters(). Units
+/// are SI or any other consistent set.
 namespace signorini
 {
-using Triple = std::array<double, 3>;
-
-/// `subsection Mesh` of a body: a generated hexahedral (quadrilateral) mesh.
+/// `subsection Mesh` of a body: generated, of hexahedra (quadrilaterals) or tetrahedra (triangles), or
+/// tetrahedra from a file.
 ///
 /// Boundaries are named after the shape: box: left, right (−x, +x), front, back (−y, +y; in 2-D bottom, top
 /// are −y, +y), bottom, top (−z, +z). ball: surface, and for parts of a ball x, y, z for the cuts x = 0, y =
 /// 0, z = 0. cylinder (axis z; 3-D only): side, bottom, top.
 struct MeshParameters
 {
+  enum class CellType
+  {
+    hexahedra, ///< quadrilaterals in 2-D
+    tetrahedra ///< triangles in 2-D
+  };
   enum class Shape
   {
     box,
     ball,
-    cylinder
+    cylinder,
+    file ///< a mesh, or a shape that Gmsh can mesh; tetrahedra only
   };
   /// Which part of a ball: whole; the half with last coordinate ≥ 0; the positive quadrant or octant.
   enum class Part
@@ -45,6 +53,7 @@ struct MeshParameters
     unsigned int levels = 0; ///< additional refinements there; each level less doubles the distance
   };
 
+  CellType cell_type = CellType::hexahedra;
   Shape shape = Shape::box;
   Part part = Part::whole;
   Triple lower_corner{};                      ///< box [m]
@@ -52,7 +61,10 @@ struct MeshParameters
   std::array<unsigned int, 3> cells{1, 1, 1}; ///< box: coarse cells a direction
   double radius = 1.;                         ///< ball, cylinder [m]
   double length = 1.;                         ///< cylinder [m]
-  unsigned int refinements = 0;               ///< global refinements of the coarse mesh
+  double element_size = 0.; ///< generated tetrahedra: length of edges, halved by every refinement [m]
+  std::string file;         ///< path as given
+  std::shared_ptr<const SimplexMesh> mesh_of_file; ///< checked; null unless the shape is that of a mesh file
+  unsigned int refinements = 0;                    ///< global refinements of the coarse mesh
   std::optional<Grading> grading;
 };
 
