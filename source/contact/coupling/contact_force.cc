@@ -223,12 +223,6 @@ std::vector<unsigned int> ContactForce<dim>::unseen_contact(const State &state) 
 }
 
 template <int dim>
-double ContactForce<dim>::set_penalty_factor(double penalty_factor)
-{
-  return dealii::Utilities::MPI::sum(potential.set_penalty_factor(penalty_factor), communicator);
-}
-
-template <int dim>
 std::vector<double> ContactForce<dim>::projected_pressures() const
 {
   const ContactSurface<dim> &surface = map->surface();
