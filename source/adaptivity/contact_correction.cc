@@ -45,9 +45,7 @@ double ContactCorrection<dim>::normal_pressure(const BoundaryFace<dim> &face, un
 template <int dim>
 double ContactCorrection<dim>::update(const State &state)
 {
-  std::vector<SpatialVector<dim>> positions = map->gather(state.displacement);
-  for (unsigned int node = 0; node < positions.size(); ++node)
-    positions[node] += map->surface().reference_positions[node];
+  const std::vector<SpatialVector<dim>> positions = map->positions(state.displacement);
   recovery.recover(forces->elasticity->point_stresses());
   std::vector<NodalPressures<dim>> pressures;
   for (const auto &contact : forces->contacts)

@@ -98,9 +98,8 @@ std::vector<bool> find_cells_near_contact(const Scene<dim> &scene, const Contact
     margins[cell.facet] =
         margin_over_file_cell * surface.facets[cell.facet].layer_thickness * std::pow(2., cell.extra_levels);
 
-  contact::StraightMotion<dim> motion{map.gather(state.displacement), map.gather(state.velocity), duration};
-  for (unsigned int node = 0; node < surface.n_nodes(); ++node)
-    motion.positions[node] += surface.reference_positions[node];
+  const contact::StraightMotion<dim> motion{map.positions(state.displacement), map.gather(state.velocity),
+                                            duration};
   const auto may_touch = [&](unsigned int body, const std::string &other)
   { return !is_pair_excluded(contact, scene.body_names[body], other); };
   std::vector<bool> is_near(surface.facets.size(), false);

@@ -76,8 +76,6 @@ public:
   std::vector<contact::ContactSample<dim>> samples() const;
 
 private:
-  std::vector<SpatialVector<dim>> positions(const State &state) const;
-
   const SurfaceMap<dim> *map;
   contact::ContactPotential<dim> potential;
   MPI_Comm communicator;
