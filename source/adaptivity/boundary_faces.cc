@@ -76,7 +76,6 @@ void join_facets(const Discretization<dim> &discretization, const SurfaceMap<dim
     ++face;
   }
 }
-
 } // namespace
 
 template <int dim>

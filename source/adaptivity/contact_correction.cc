@@ -14,9 +14,10 @@ namespace signorini
 template <int dim>
 ContactCorrection<dim>::ContactCorrection(const Discretization<dim> &the_discretization,
                                           const Scene<dim> &the_scene, const SceneForces<dim> &scene_forces,
-                                          const SurfaceMap<dim> &surface_map)
+                                          const SurfaceMap<dim> &surface_map,
+                                          const std::vector<BoundaryFace<dim>> &boundary_faces)
     : scene(&the_scene), forces(&scene_forces), map(&surface_map), discretization(&the_discretization),
-      recovery(the_discretization), faces(collect_boundary_faces(the_discretization, &surface_map)),
+      recovery(the_discretization), faces(&boundary_faces),
       current(scene_forces.contacts.size(), NodalPressures<dim>(surface_map.surface().facets.size()))
 {
 }
@@ -45,9 +46,7 @@ double ContactCorrection<dim>::normal_pressure(const BoundaryFace<dim> &face, un
 template <int dim>
 double ContactCorrection<dim>::update(const State &state)
 {
-  std::vector<SpatialVector<dim>> positions = map->gather(state.displacement);
-  for (unsigned int node = 0; node < positions.size(); ++node)
-    positions[node] += map->surface().reference_positions[node];
+  const std::vector<SpatialVector<dim>> positions = map->positions(state.displacement);
   recovery.recover(forces->elasticity->point_stresses());
   std::vector<NodalPressures<dim>> pressures;
   for (const auto &contact : forces->contacts)
@@ -55,7 +54,7 @@ double ContactCorrection<dim>::update(const State &state)
   double largest_change = 0., largest = 0.;
   unsigned int cell = static_cast<unsigned int>(-1);
   std::vector<Eigen::Matrix3d> nodal;
-  for (const BoundaryFace<dim> &face : faces)
+  for (const BoundaryFace<dim> &face : *faces)
   {
     if (std::exchange(cell, face.cell) != face.cell)
       nodal = recovery.nodal_stresses(face.cell);

@@ -11,32 +11,16 @@ namespace signorini
 {
 namespace
 {
-/// The own cell behind each owned facet, which the surface map collects in this order, and how many levels it
-/// lies above the file's mesh.
-struct CellOfFacet
-{
-  unsigned int facet, own_cell, extra_levels;
-};
-
+/// How many levels each own cell lies above the file's mesh, [own cell].
 template <int dim>
-std::vector<CellOfFacet> find_cells_of_facets(const Discretization<dim> &discretization,
-                                              const SurfaceMap<dim> &map, const FileLevels<dim> &file_levels)
+std::vector<unsigned int> find_extra_levels(const Discretization<dim> &discretization,
+                                            const FileLevels<dim> &file_levels)
 {
-  std::vector<unsigned int> owned;
-  for (unsigned int f = 0; f < map.surface().facets.size(); ++f)
-    if (map.surface().facets[f].owned)
-      owned.push_back(f);
-  std::vector<CellOfFacet> cells;
-  unsigned int own_cell = 0;
+  std::vector<unsigned int> extra_levels;
   for (const auto &cell : discretization.mesh->active_cell_iterators())
     if (cell->is_locally_owned())
-    {
-      for (const unsigned int face : cell->face_indices())
-        if (cell->face(face)->at_boundary())
-          cells.push_back({owned.at(cells.size()), own_cell, cell->level() - file_levels.level_at(cell)});
-      ++own_cell;
-    }
-  return cells;
+      extra_levels.push_back(cell->level() - file_levels.level_at(cell));
+  return extra_levels;
 }
 
 /// Squared errors sorted by size into classes of a tenth of a factor of two each; summed over all ranks.
@@ -85,22 +69,22 @@ private:
 } // namespace
 
 template <int dim>
-std::vector<bool> find_cells_near_contact(const Scene<dim> &scene, const ContactParameters &contact,
-                                          const Discretization<dim> &discretization,
-                                          const SurfaceMap<dim> &map, const FileLevels<dim> &file_levels,
-                                          const State &state, double duration)
+std::vector<bool>
+find_cells_near_contact(const Scene<dim> &scene, const ContactParameters &contact,
+                        const Discretization<dim> &discretization, const SurfaceMap<dim> &map,
+                        const std::vector<BoundaryFace<dim>> &faces, const FileLevels<dim> &file_levels,
+                        const State &state, double duration)
 {
   constexpr double margin_over_file_cell = 0.6;
   const ContactSurface<dim> &surface = map.surface();
-  const std::vector<CellOfFacet> cells = find_cells_of_facets(discretization, map, file_levels);
+  const std::vector<unsigned int> extra_levels = find_extra_levels(discretization, file_levels);
   std::vector<double> margins(surface.facets.size(), 0.);
-  for (const CellOfFacet &cell : cells)
-    margins[cell.facet] =
-        margin_over_file_cell * surface.facets[cell.facet].layer_thickness * std::pow(2., cell.extra_levels);
+  for (const BoundaryFace<dim> &face : faces)
+    margins[face.facet] = margin_over_file_cell * surface.facets[face.facet].layer_thickness *
+                          std::pow(2., extra_levels[face.cell]);
 
-  contact::StraightMotion<dim> motion{map.gather(state.displacement), map.gather(state.velocity), duration};
-  for (unsigned int node = 0; node < surface.n_nodes(); ++node)
-    motion.positions[node] += surface.reference_positions[node];
+  const contact::StraightMotion<dim> motion{map.positions(state.displacement), map.gather(state.velocity),
+                                            duration};
   const auto may_touch = [&](unsigned int body, const std::string &other)
   { return !is_pair_excluded(contact, scene.body_names[body], other); };
   std::vector<bool> is_near(surface.facets.size(), false);
@@ -117,10 +101,10 @@ std::vector<bool> find_cells_near_contact(const Scene<dim> &scene, const Contact
                                            [&](unsigned int body)
                                            { return may_touch(body, obstacle->name()); }));
 
-  std::vector<bool> is_near_contact(discretization.cells.n_cells, false);
-  for (const CellOfFacet &cell : cells)
-    if (is_near[cell.facet])
-      is_near_contact[cell.own_cell] = true;
+  std::vector<bool> is_near_contact(extra_levels.size(), false);
+  for (const BoundaryFace<dim> &face : faces)
+    if (is_near[face.facet])
+      is_near_contact[face.cell] = true;
   return is_near_contact;
 }
 
@@ -138,20 +122,21 @@ bool mark_cells_in_motion(const std::vector<bool> &is_near_contact, OtherCells o
     begin_of_small = std::max(end_of_large, errors.begin_of_smallest(parameters.coarsen_share));
   }
   const bool may_refine = discretization.n_dofs() < parameters.max_n_dofs;
+  const std::vector<unsigned int> extra_levels = find_extra_levels(discretization, file_levels);
   unsigned int own_cell = 0;
   for (const auto &cell : discretization.mesh->active_cell_iterators())
     if (cell->is_locally_owned())
     {
-      const unsigned int extra_levels = cell->level() - file_levels.level_at(cell);
       const unsigned int error_class =
           others == OtherCells::by_error ? errors.class_of(estimate.cell_discretization[own_cell]) : 0;
-      if (is_near_contact[own_cell++] || error_class < end_of_large)
+      if (is_near_contact[own_cell] || error_class < end_of_large)
       {
-        if (may_refine && extra_levels < parameters.max_levels)
+        if (may_refine && extra_levels[own_cell] < parameters.max_levels)
           cell->set_refine_flag();
       }
-      else if (extra_levels > 0 && error_class >= begin_of_small)
+      else if (extra_levels[own_cell] > 0 && error_class >= begin_of_small)
         cell->set_coarsen_flag();
+      ++own_cell;
     }
   discretization.mesh->prepare_coarsening_and_refinement();
   bool is_any = false;
@@ -162,9 +147,11 @@ bool mark_cells_in_motion(const std::vector<bool> &is_near_contact, OtherCells o
 
 template std::vector<bool> find_cells_near_contact(const Scene<2> &, const ContactParameters &,
                                                    const Discretization<2> &, const SurfaceMap<2> &,
+                                                   const std::vector<BoundaryFace<2>> &,
                                                    const FileLevels<2> &, const State &, double);
 template std::vector<bool> find_cells_near_contact(const Scene<3> &, const ContactParameters &,
                                                    const Discretization<3> &, const SurfaceMap<3> &,
+                                                   const std::vector<BoundaryFace<3>> &,
                                                    const FileLevels<3> &, const State &, double);
 template bool mark_cells_in_motion(const std::vector<bool> &, OtherCells, const ErrorEstimate &,
                                    const AdaptivityParameters &, const FileLevels<2> &, Discretization<2> &);

@@ -221,6 +221,15 @@ std::vector<SpatialVector<dim>> SurfaceMap<dim>::gather(const Vector &values) co
 }
 
 template <int dim>
+std::vector<SpatialVector<dim>> SurfaceMap<dim>::positions(const Vector &displacement) const
+{
+  std::vector<SpatialVector<dim>> x = gather(displacement);
+  for (unsigned int node = 0; node < x.size(); ++node)
+    x[node] += contact_surface.reference_positions[node];
+  return x;
+}
+
+template <int dim>
 void SurfaceMap<dim>::add_to_owners(const std::vector<SpatialVector<dim>> &nodal_forces, Vector &forces) const
 {
   const std::vector<SpatialVector<dim>> *total = &nodal_forces;

@@ -19,9 +19,9 @@ template <int dim>
 std::vector<SpatialVector<dim>> current_positions(const SurfaceMap<dim> &surface_map,
                                                   const Vector &displacement)
 {
-  std::vector<SpatialVector<dim>> positions = surface_map.gather(displacement);
-  for (unsigned int node = 0; node < positions.size(); ++node)
-    positions[node] += surface_map.surface().origin + surface_map.surface().reference_positions[node];
+  std::vector<SpatialVector<dim>> positions = surface_map.positions(displacement);
+  for (SpatialVector<dim> &x : positions)
+    x += surface_map.surface().origin;
   return positions;
 }
 

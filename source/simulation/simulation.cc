@@ -55,6 +55,9 @@ void Simulation<dim>::build_on_mesh()
   if (parameters.contact)
     build_contact();
   estimator = std::make_unique<ErrorEstimator<dim>>(*discretization, scene, forces, surface_map.get());
+  if (parameters.contact && parameters.contact->correction)
+    correction = std::make_unique<ContactCorrection<dim>>(*discretization, scene, forces, *surface_map,
+                                                          estimator->boundary_faces());
   results.n_dofs = discretization->n_dofs();
   results.n_cells = discretization->mesh->n_global_active_cells();
 }

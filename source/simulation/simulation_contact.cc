@@ -85,8 +85,6 @@ void Simulation<dim>::build_contact()
   }
   if (settings.damping_ratio)
     forces.damped_contacts = forces.contacts;
-  if (parameters.contact->correction)
-    correction = std::make_unique<ContactCorrection<dim>>(*discretization, scene, forces, *surface_map);
 }
 
 template <int dim>

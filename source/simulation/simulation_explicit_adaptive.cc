@@ -28,7 +28,7 @@ bool Simulation<dim>::mark_in_motion(double duration, OtherCells others)
   std::vector<bool> is_near_contact(discretization->cells.n_cells, false);
   if (surface_map)
     is_near_contact = find_cells_near_contact(scene, *parameters.contact, *discretization, *surface_map,
-                                              *file_levels, state, duration);
+                                              estimator->boundary_faces(), *file_levels, state, duration);
   return mark_cells_in_motion(is_near_contact, others, results.estimate, *parameters.adaptivity, *file_levels,
                               *discretization);
 }

@@ -201,8 +201,8 @@ void Simulation<dim>::gather_results()
                                    parameters.exact_solution->displacement, state.time);
   constexpr double silent = 0.01;
   if (results.energy.max_adaptation > silent * results.energy.largest)
-    warn(fmt::format("an adaptation of the mesh changed the energy by {:.2g} of its largest: raise "
-                     "Adaptivity/Maximum levels ahead of contact, or lower Adaptivity/Interval",
+    warn(fmt::format("an adaptation of the mesh changed the energy by {:.2g} of its largest: lower "
+                     "Adaptivity/Interval, so that refinement comes before contact",
                      results.energy.max_adaptation / results.energy.largest));
   constexpr double shallow = 0.1;
   if (results.max_penetration_over_thickness > shallow)

@@ -1,34 +1,19 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Tests of what runs do to their output directory, and of runs that are stopped: test_directory.py PROGRAM."""
-import json
-import pathlib
 import signal
 import subprocess
-import sys
-import tempfile
 import time
 import unittest
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
-PROGRAM = sys.argv.pop()
+from program import ROOT, ProgramTest
+
 BLOCKS = ROOT / "parameter_files/demonstration/two_blocks.prm"
 HERTZ = ROOT / "parameter_files/validation/hertz_cylinder.prm"
 ENDLESS = ["--set", "Quasi-static/Load steps=1000000", "--set", "Output/Number of fields=1"]
 
 
-class DirectoryTest(unittest.TestCase):
-    def setUp(self):
-        self.folder = tempfile.TemporaryDirectory()
-        self.addCleanup(self.folder.cleanup)
-        self.path = pathlib.Path(self.folder.name) / "output"
-
-    def command(self, file, *options):
-        return [PROGRAM, str(file), "--output", str(self.path), *options]
-
-    def run_program(self, file, *options):
-        return subprocess.run(self.command(file, *options), capture_output=True, text=True, check=False)
-
+class DirectoryTest(ProgramTest):
     def start_endless(self):
         process = subprocess.Popen(self.command(BLOCKS, *ENDLESS), stdout=subprocess.DEVNULL, stderr=subprocess.PIPE,
                                    text=True)
@@ -41,9 +26,6 @@ class DirectoryTest(unittest.TestCase):
             time.sleep(0.01)
         return self.fail("the run has not begun")
 
-    def summary(self):
-        return json.loads((self.path / "summary.json").read_text(encoding="utf-8"))
-
     def test_an_interrupted_run_leaves_whole_output(self):
         for stop in (signal.SIGINT, signal.SIGTERM):
             process = self.start_endless()
@@ -54,8 +36,7 @@ class DirectoryTest(unittest.TestCase):
             self.assertEqual(self.summary()["status"], "interrupted")
             self.assertIn(f"interrupted by {stop.name}", self.summary()["reason"])
             self.assertTrue((self.path / "solution.pvd").is_file())
-            report = subprocess.run([str(ROOT / "scripts/report"), str(self.path)], capture_output=True, check=False)
-            self.assertEqual(report.returncode, 0)
+            self.report()
             (self.path / "statistics.csv").unlink()
 
     def test_two_runs_do_not_share_a_directory(self):

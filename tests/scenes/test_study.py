@@ -2,41 +2,26 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Tests of studies: what they compute, what they leave, and how they go on: test_study.py PROGRAM."""
 import csv
-import json
 import math
-import pathlib
 import shutil
 import signal
 import subprocess
-import sys
-import tempfile
 import time
 import unittest
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
-PROGRAM = sys.argv.pop()
+from program import ROOT, ProgramTest
+
 BARS = ROOT / "parameter_files/study/alpha_h.prm"
 SMALL = ["--set", "Study/Uniform refinements=0,1,2", "--set", "Study/Penalty factors=1,10,100"]
 END = "displacement of the loaded end"
 
 
-class StudyTest(unittest.TestCase):
-    def setUp(self):
-        self.folder = tempfile.TemporaryDirectory()
-        self.addCleanup(self.folder.cleanup)
-        self.path = pathlib.Path(self.folder.name) / "output"
-
-    def command(self, file, *options):
-        return [PROGRAM, str(file), "--output", str(self.path), *options]
-
-    def run_program(self, *options, file=BARS):
-        return subprocess.run(self.command(file, *options), capture_output=True, text=True, check=False)
-
-    def summary(self, folder=""):
-        return json.loads((self.path / folder / "summary.json").read_text(encoding="utf-8"))
+class StudyTest(ProgramTest):
+    def run_study(self, *options):
+        return self.run_program(BARS, *options)
 
     def test_orders_are_those_of_the_theory(self):
-        done = self.run_program(*SMALL)
+        done = self.run_study(*SMALL)
         self.assertEqual(done.returncode, 0, done.stderr)
         study = self.summary()["study"]
         self.assertEqual(len(study["rows"]), 9)
@@ -67,13 +52,8 @@ class StudyTest(unittest.TestCase):
             self.assertTrue(math.isclose(float(cells[f"{END}: relative error"]), row["largest_error"], rel_tol=1e-8))
             self.assertGreater(float(cells["memory [MB]"]), 0)
 
-    def report(self):
-        done = subprocess.run([str(ROOT / "scripts/report"), str(self.path)], capture_output=True, text=True, check=False)
-        self.assertEqual(done.returncode, 0, done.stderr)
-        return done
-
     def test_the_report_of_a_study(self):
-        self.assertEqual(self.run_program(*SMALL).returncode, 0)
+        self.assertEqual(self.run_study(*SMALL).returncode, 0)
         done = self.report()
         page = (self.path / "report.html").read_text(encoding="utf-8")
         for words in ("Observed orders", "All runs", "uniform-2_alpha-100", "cheapest"):
@@ -83,21 +63,21 @@ class StudyTest(unittest.TestCase):
                 self.assertTrue((self.path / f"report_{name}.png").is_file(), name)
 
     def test_only_what_is_missing_or_changed_is_run_again(self):
-        self.assertEqual(self.run_program(*SMALL).returncode, 0)
+        self.assertEqual(self.run_study(*SMALL).returncode, 0)
         runs = self.path / "runs"
         shutil.rmtree(runs / "uniform-1_alpha-10_repeat-1")
         before = {path.name: (path / "summary.json").stat().st_mtime_ns for path in runs.iterdir()}
-        done = self.run_program(*SMALL, "--resume")
+        done = self.run_study(*SMALL, "--resume")
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertEqual(done.stdout.count("from before"), 8)
         after = {path.name: (path / "summary.json").stat().st_mtime_ns for path in runs.iterdir()}
         self.assertEqual([name for name in after if after[name] != before.get(name)], ["uniform-1_alpha-10_repeat-1"])
         self.assertEqual(len(self.summary()["study"]["rows"]), 9)
-        used = self.run_program("--resume", file=self.path / "parameters.prm")
+        used = self.run_program(self.path / "parameters.prm", "--resume")
         self.assertEqual(used.stdout.count("from before"), 9, used.stderr)
-        changed = self.run_program(*SMALL, "--resume", "--set", "Body upper/Material/Young's modulus=2e7")
+        changed = self.run_study(*SMALL, "--resume", "--set", "Body upper/Material/Young's modulus=2e7")
         self.assertEqual(changed.stdout.count("from before"), 0)
-        anew = self.run_program(*SMALL)
+        anew = self.run_study(*SMALL)
         self.assertEqual(anew.stdout.count("from before"), 0)
 
     def test_a_run_that_fails_is_a_row(self):
@@ -105,7 +85,7 @@ class StudyTest(unittest.TestCase):
         text = BARS.read_text(encoding="utf-8").replace("Penalty factors     = 1, 10, 100, 1000", "Penalty factors = 1, 1000")
         file.write_text(text.replace("set Tolerance = 1e-10", "set Tolerance = 1e-10\n set Maximum iterations = 1\n"
                                      " set Maximum bisections = 0"), encoding="utf-8")
-        done = self.run_program(file=file)
+        done = self.run_program(file)
         self.assertEqual(done.returncode, 1, done.stdout)
         self.assertIn("no run of the study ended well", done.stderr)
         self.assertEqual({row["status"] for row in self.summary()["study"]["rows"]}, {"failed"})
@@ -129,13 +109,13 @@ class StudyTest(unittest.TestCase):
         self.assertGreater(len(self.summary()["study"]["rows"]), 0)
 
     def test_the_plan_is_printed(self):
-        done = self.run_program(*SMALL, "--validate")
+        done = self.run_study(*SMALL, "--validate")
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertEqual(done.stdout.count("_repeat-1: about"), 9)
         self.assertFalse(self.path.exists())
 
     def test_larger_runs_are_left_out(self):
-        done = self.run_program(*SMALL, "--set", "Study/Maximum dofs=100")
+        done = self.run_study(*SMALL, "--set", "Study/Maximum dofs=100")
         self.assertEqual(done.returncode, 0, done.stderr)
         left_out = [row["run"] for row in self.summary()["study"]["rows"] if row["status"] == "left out"]
         self.assertEqual(left_out, ["uniform-2_alpha-1", "uniform-2_alpha-10", "uniform-2_alpha-100"])

@@ -17,9 +17,10 @@ template <int dim>
 class ContactCorrection
 {
 public:
-  /// The arguments must outlive this object.
+  /// The arguments must outlive this object; `faces`: see collect_boundary_faces().
   ContactCorrection(const Discretization<dim> &discretization, const Scene<dim> &scene,
-                    const SceneForces<dim> &forces, const SurfaceMap<dim> &map);
+                    const SceneForces<dim> &forces, const SurfaceMap<dim> &map,
+                    const std::vector<BoundaryFace<dim>> &faces);
 
   /// Of all terms of contact, [term].
   using Multipliers = std::vector<NodalPressures<dim>>;
@@ -44,7 +45,7 @@ private:
   const SurfaceMap<dim> *map;
   const Discretization<dim> *discretization;
   StressRecovery<dim> recovery;
-  std::vector<BoundaryFace<dim>> faces;
+  const std::vector<BoundaryFace<dim>> *faces;
   Multipliers current;
 };
 } // namespace signorini

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
+#include "signorini/adaptivity/boundary_faces.h"
 #include "signorini/adaptivity/error_estimate.h"
 #include "signorini/discretization/scene_mesh.h"
-#include "signorini/discretization/surface_map.h"
 #include "signorini/physics/state.h"
 #include "signorini/scene/scene.h"
 
@@ -11,11 +11,13 @@ namespace signorini
 {
 /// Own cells, [own cell], with a face that may come into contact within `duration` [s], or is in contact, if
 /// all goes on as it moves now (collective). Surfaces count as touching from 0.6 cells of the file's mesh on.
+/// `faces`: see collect_boundary_faces().
 template <int dim>
-std::vector<bool> find_cells_near_contact(const Scene<dim> &scene, const ContactParameters &contact,
-                                          const Discretization<dim> &discretization,
-                                          const SurfaceMap<dim> &map, const FileLevels<dim> &file_levels,
-                                          const State &state, double duration);
+std::vector<bool>
+find_cells_near_contact(const Scene<dim> &scene, const ContactParameters &contact,
+                        const Discretization<dim> &discretization, const SurfaceMap<dim> &map,
+                        const std::vector<BoundaryFace<dim>> &faces, const FileLevels<dim> &file_levels,
+                        const State &state, double duration);
 
 /// What becomes of cells that are not near contact.
 enum class OtherCells

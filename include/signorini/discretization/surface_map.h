@@ -22,6 +22,10 @@ public:
   /// Values of a distributed vector at the surface's nodes, known to all ranks after the call (collective).
   std::vector<SpatialVector<dim>> gather(const Vector &values) const;
 
+  /// Positions of the surface's nodes under a displacement, relative to the surface's origin, known to all
+  /// ranks after the call [m] (collective).
+  std::vector<SpatialVector<dim>> positions(const Vector &displacement) const;
+
   /// Adds nodal forces, of which every rank holds a part, to their owners' entries (collective).
   void add_to_owners(const std::vector<SpatialVector<dim>> &nodal_forces, Vector &forces) const;
 

@@ -80,28 +80,17 @@ ContactForce<dim>::ContactForce(const std::string &term_name, bool is_an_externa
 }
 
 template <int dim>
-std::vector<SpatialVector<dim>> ContactForce<dim>::positions(const State &state) const
-{
-  std::vector<SpatialVector<dim>> x = map->gather(state.displacement);
-  for (unsigned int node = 0; node < x.size(); ++node)
-    x[node] += map->surface().reference_positions[node];
-  return x;
-}
-
-template <int dim>
 double ContactForce<dim>::renew(const State &state)
 {
-  return dealii::Utilities::MPI::sum(potential.update(positions(state)), communicator);
+  return dealii::Utilities::MPI::sum(potential.update(map->positions(state.displacement)), communicator);
 }
 
 template <int dim>
 void ContactForce<dim>::update(const State &state)
 {
-  const std::vector<SpatialVector<dim>> x = positions(state);
+  const std::vector<SpatialVector<dim>> x = map->positions(state.displacement);
   if (potential.is_stale(x))
-  {
     potential.update(x);
-  }
   potential.evaluate(x);
 }
 
@@ -219,13 +208,8 @@ std::vector<unsigned int> ContactForce<dim>::unseen_contact(const State &state) 
         known_depth[surface.facets[f].nodes[i]] = std::numeric_limits<double>::max();
   MPI_Allreduce(MPI_IN_PLACE, known_depth.data(), static_cast<int>(known_depth.size()), MPI_DOUBLE, MPI_MAX,
                 communicator);
-  return contact::find_unseen_contact(surface, potential.pair_list(), positions(state), known_depth);
-}
-
-template <int dim>
-double ContactForce<dim>::set_penalty_factor(double penalty_factor)
-{
-  return dealii::Utilities::MPI::sum(potential.set_penalty_factor(penalty_factor), communicator);
+  return contact::find_unseen_contact(surface, potential.pair_list(), map->positions(state.displacement),
+                                      known_depth);
 }
 
 template <int dim>

@@ -41,11 +41,9 @@ double ContactPotential<dim>::update(const Positions &positions)
 }
 
 template <int dim>
-double ContactPotential<dim>::set_penalty_factor(double penalty_factor)
+void ContactPotential<dim>::set_penalty_factor(double penalty_factor)
 {
-  const double old_energy = energy();
   pairs.set_penalty_factor(penalty_factor);
-  return energy() - old_energy;
 }
 
 template <int dim>

@@ -47,7 +47,8 @@ struct Approach
       built.discretization.distribute(built.state.velocity);
       const SurfaceMap<dim> map(built.scene, built.discretization);
       const std::vector<bool> is_near = find_cells_near_contact(
-          built.scene, ContactParameters(), built.discretization, map, levels, built.state, 1.);
+          built.scene, ContactParameters(), built.discretization, map,
+          collect_boundary_faces(built.discretization, &map), levels, built.state, 1.);
       if (!mark_cells_in_motion(is_near, others, ErrorEstimate(), adaptivity, levels, built.discretization))
         break;
       adapt_in_motion(built.scene, built.discretization, built.state);

@@ -63,9 +63,8 @@ public:
   /// (collective): without the noise of single points.
   std::vector<double> projected_pressures() const;
 
-  /// See PairList::set_penalty_factor(). Returns the jump of the stored energy over all ranks [J]
-  /// (collective).
-  double set_penalty_factor(double penalty_factor);
+  /// See PairList::set_penalty_factor(); the energy is another one afterwards.
+  void set_penalty_factor(double penalty_factor) { potential.set_penalty_factor(penalty_factor); }
 
   /// See PairList::set_multipliers(); of this rank's facets.
   void set_multipliers(const NodalPressures<dim> &multipliers) { potential.set_multipliers(multipliers); }
@@ -77,8 +76,6 @@ public:
   std::vector<contact::ContactSample<dim>> samples() const;
 
 private:
-  std::vector<SpatialVector<dim>> positions(const State &state) const;
-
   const SurfaceMap<dim> *map;
   contact::ContactPotential<dim> potential;
   MPI_Comm communicator;

@@ -53,9 +53,8 @@ public:
   /// Finds the feet of all points. Everything below speaks of these positions.
   void evaluate(const Positions &positions);
 
-  /// See PairList::set_penalty_factor(). Returns the jump of the stored energy [J], 0 before the first
-  /// update().
-  double set_penalty_factor(double penalty_factor);
+  /// See PairList::set_penalty_factor(); the energy is another one afterwards.
+  void set_penalty_factor(double penalty_factor);
 
   /// See PairList::set_multipliers(); the energy is another one afterwards.
   void set_multipliers(NodalPressures<dim> multipliers);
