@@ -3,7 +3,6 @@
 
 #include "signorini/base/to_eigen.h"
 
-#include <deal.II/base/quadrature_lib.h>
 #include <deal.II/fe/fe_values.h>
 
 #include <algorithm>
@@ -13,23 +12,22 @@ namespace signorini
 namespace
 {
 template <int dim>
-std::vector<BoundaryFace<dim>> collect(const Discretization<dim> &discretization)
+void collect_of_part(const MeshPart<dim> &part, std::vector<BoundaryFace<dim>> &faces)
 {
-  std::vector<BoundaryFace<dim>> faces;
-  const auto &element = discretization.element;
-  const dealii::QGaussLobatto<dim - 1> at_nodes(element.degree + 1);
-  dealii::FEFaceValues<dim> values(discretization.mapping, element, at_nodes,
+  const dealii::FiniteElement<dim> &element = part.element.base_element(0);
+  const dealii::Quadrature<dim - 1> at_nodes(element.get_unit_face_support_points());
+  dealii::FEFaceValues<dim> values(part.mapping(), element, at_nodes,
                                    dealii::update_values | dealii::update_normal_vectors |
                                        dealii::update_quadrature_points);
-  unsigned int own_cell = 0;
-  for (const auto &cell : discretization.dof_handler.active_cell_iterators())
+  unsigned int own_cell = part.first_cell;
+  for (const auto &cell : part.dof_handler.active_cell_iterators())
   {
     if (!cell->is_locally_owned())
       continue;
     for (const unsigned int f : cell->face_indices())
       if (cell->face(f)->at_boundary())
       {
-        values.reinit(cell, f);
+        values.reinit(typename dealii::Triangulation<dim>::cell_iterator(cell), f);
         BoundaryFace<dim> face;
         face.cell = own_cell;
         face.body = cell->material_id();
@@ -38,15 +36,14 @@ std::vector<BoundaryFace<dim>> collect(const Discretization<dim> &discretization
         {
           face.normals.push_back(to_eigen(values.normal_vector(q)));
           face.positions.push_back(values.quadrature_point(q));
-          for (unsigned int a = 0; a < discretization.cells.n_nodes; ++a)
-            if (values.shape_value(element.component_to_system_index(0, a), q) > 0.5)
+          for (unsigned int a = 0; a < element.n_dofs_per_cell(); ++a)
+            if (values.shape_value(a, q) > 0.5)
               face.nodes.push_back(a);
         }
         faces.push_back(std::move(face));
       }
     ++own_cell;
   }
-  return faces;
 }
 
 /// Finds the facets of the contact surface, which was collected in the same order.
@@ -82,7 +79,9 @@ template <int dim>
 std::vector<BoundaryFace<dim>> collect_boundary_faces(const Discretization<dim> &discretization,
                                                       const SurfaceMap<dim> *map)
 {
-  std::vector<BoundaryFace<dim>> faces = collect(discretization);
+  std::vector<BoundaryFace<dim>> faces;
+  for (const MeshPart<dim> *part : discretization.parts)
+    collect_of_part(*part, faces);
   if (map != nullptr)
     join_facets(discretization, *map, faces);
   return faces;

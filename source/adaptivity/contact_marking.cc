@@ -16,10 +16,10 @@ template <int dim>
 using Cell = typename dealii::DoFHandler<dim>::active_cell_iterator;
 
 template <int dim>
-std::vector<Cell<dim>> collect_own_cells(const Discretization<dim> &discretization)
+std::vector<Cell<dim>> collect_own_hexahedra(const Discretization<dim> &discretization)
 {
   std::vector<Cell<dim>> cells;
-  for (const auto &cell : discretization.dof_handler.active_cell_iterators())
+  for (const auto &cell : discretization.hexahedra->dof_handler.active_cell_iterators())
     if (cell->is_locally_owned())
       cells.push_back(cell);
   return cells;
@@ -80,16 +80,19 @@ void level_out(const ContactSurface<dim> &surface, std::vector<int> &levels)
 } // namespace
 
 template <int dim>
-void level_curved_contact(const std::vector<BoundaryFace<dim>> &faces, const NodalPressures<dim> &pressures,
-                          double penalty_factor, const SurfaceMap<dim> &map,
-                          Discretization<dim> &discretization)
+void level_curved_contact(const std::vector<BoundaryFace<dim>> &all_faces,
+                          const NodalPressures<dim> &pressures, double penalty_factor,
+                          const SurfaceMap<dim> &map, Discretization<dim> &discretization)
 {
   if (dim == 2)
     return; // nodes of a boundary curve do not hang
-  const bool is_straight = discretization.element.degree == 1;
+  const bool is_straight = discretization.degree == 1;
   const double tolerance = is_straight ? 0.1 : 0.05, pressure_of_kink = is_straight ? penalty_factor : 4.;
   const ContactSurface<dim> &surface = map.surface();
-  const std::vector<Cell<dim>> cells = collect_own_cells(discretization);
+  const std::vector<Cell<dim>> cells = collect_own_hexahedra(discretization);
+  std::vector<BoundaryFace<dim>> faces; // of the hexahedra, which come first among the cells
+  std::copy_if(all_faces.begin(), all_faces.end(), std::back_inserter(faces),
+               [&](const BoundaryFace<dim> &face) { return face.cell < cells.size(); });
   double peak = 0.;
   for (const BoundaryFace<dim> &face : faces)
     peak = std::max(peak, largest_pressure(face, pressures));

@@ -79,9 +79,9 @@ double ErrorEstimator<dim>::squared_error(unsigned int cell, const std::vector<E
   const MaterialParameters &material = scene->materials[cells.bodies[cell]];
   const double nu = material.poissons_ratio;
   double sum = 0.;
-  for (unsigned int q = 0; q < cells.n_points; ++q)
+  for (unsigned int q = 0; q < cells.n_points(cell); ++q)
   {
-    const Eigen::Matrix3d difference = recovery.interpolate(nodal, q) - point_stresses[q];
+    const Eigen::Matrix3d difference = recovery.interpolate(cell, nodal, q) - point_stresses[q];
     const double trace = difference.trace();
     sum += cells.cell_weights(cell)[q] / material.youngs_modulus *
            ((1. + nu) * difference.squaredNorm() - nu * trace * trace);
@@ -108,7 +108,7 @@ void ErrorEstimator<dim>::find_unseen_contact(const State &state, ErrorEstimate 
 template <int dim>
 ErrorEstimate ErrorEstimator<dim>::estimate(const State &state)
 {
-  const unsigned int n_cells = discretization->cells.n_cells, n_points = discretization->cells.n_points;
+  const unsigned int n_cells = discretization->cells.n_cells;
   const std::vector<Eigen::Matrix3d> point_stresses = forces->elasticity->point_stresses();
   const NodalPressures<dim> pressures = contact_pressures();
   recovery.recover(point_stresses);
@@ -120,7 +120,8 @@ ErrorEstimate ErrorEstimator<dim>::estimate(const State &state)
     std::vector<Eigen::Matrix3d> nodal = recovery.nodal_stresses(cell);
     for (; face != faces.end() && face->cell == cell; ++face)
       balance_tractions(*face, state.time, pressures, nodal);
-    result.cell_discretization.push_back(squared_error(cell, nodal, &point_stresses[cell * n_points]));
+    result.cell_discretization.push_back(
+        squared_error(cell, nodal, &point_stresses[discretization->cells.first_point(cell)]));
     result.discretization += result.cell_discretization.back();
   }
   for (const auto &contact : forces->contacts)

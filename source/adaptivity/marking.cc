@@ -13,18 +13,18 @@ void mark_cells(const ErrorEstimate &estimate, const AdaptivityParameters &param
   if (estimate.is_any_contact_unseen)
   {
     // Without contact the solution says nothing of errors yet.
-    for (const auto &cell : discretization.mesh->active_cell_iterators())
+    for (const auto &cell : discretization.hexahedra->mesh.active_cell_iterators())
       if (cell->is_locally_owned() && estimate.is_contact_unseen[own_cell++])
         cell->set_refine_flag();
     return;
   }
-  dealii::Vector<float> squares(discretization.mesh->n_active_cells());
-  for (const auto &cell : discretization.mesh->active_cell_iterators())
+  dealii::Vector<float> squares(discretization.hexahedra->mesh.n_active_cells());
+  for (const auto &cell : discretization.hexahedra->mesh.active_cell_iterators())
     if (cell->is_locally_owned())
       squares[cell->active_cell_index()] =
           static_cast<float>(estimate.cell_discretization[own_cell++] / estimate.discretization);
   dealii::parallel::distributed::GridRefinement::refine_and_coarsen_fixed_fraction(
-      *discretization.mesh, squares, parameters.refine_share, parameters.coarsen_share);
+      discretization.hexahedra->mesh, squares, parameters.refine_share, parameters.coarsen_share);
 }
 
 template void mark_cells(const ErrorEstimate &, const AdaptivityParameters &, Discretization<2> &);

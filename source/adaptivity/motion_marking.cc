@@ -16,10 +16,11 @@ template <int dim>
 std::vector<unsigned int> find_extra_levels(const Discretization<dim> &discretization,
                                             const FileLevels<dim> &file_levels)
 {
-  std::vector<unsigned int> extra_levels;
-  for (const auto &cell : discretization.mesh->active_cell_iterators())
+  std::vector<unsigned int> extra_levels(discretization.cells.n_cells, 0);
+  unsigned int own_cell = 0; // hexahedra come first
+  for (const auto &cell : discretization.hexahedra->mesh.active_cell_iterators())
     if (cell->is_locally_owned())
-      extra_levels.push_back(cell->level() - file_levels.level_at(cell));
+      extra_levels[own_cell++] = cell->level() - file_levels.level_at(cell);
   return extra_levels;
 }
 
@@ -124,7 +125,7 @@ bool mark_cells_in_motion(const std::vector<bool> &is_near_contact, OtherCells o
   const bool may_refine = discretization.n_dofs() < parameters.max_n_dofs;
   const std::vector<unsigned int> extra_levels = find_extra_levels(discretization, file_levels);
   unsigned int own_cell = 0;
-  for (const auto &cell : discretization.mesh->active_cell_iterators())
+  for (const auto &cell : discretization.hexahedra->mesh.active_cell_iterators())
     if (cell->is_locally_owned())
     {
       const unsigned int error_class =
@@ -138,9 +139,9 @@ bool mark_cells_in_motion(const std::vector<bool> &is_near_contact, OtherCells o
         cell->set_coarsen_flag();
       ++own_cell;
     }
-  discretization.mesh->prepare_coarsening_and_refinement();
+  discretization.hexahedra->mesh.prepare_coarsening_and_refinement();
   bool is_any = false;
-  for (const auto &cell : discretization.mesh->active_cell_iterators())
+  for (const auto &cell : discretization.hexahedra->mesh.active_cell_iterators())
     is_any |= cell->is_locally_owned() && (cell->refine_flag_set() || cell->coarsen_flag_set());
   return dealii::Utilities::MPI::max(static_cast<int>(is_any), discretization.communicator()) == 1;
 }

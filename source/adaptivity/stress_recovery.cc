@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "signorini/adaptivity/stress_recovery.h"
 
-#include <deal.II/base/quadrature_lib.h>
-
 #include <Eigen/LU>
 
 #include <numeric>
@@ -22,22 +20,27 @@ Index component(unsigned int i)
   return dim == 2 ? in_plane[i] : in_space[i];
 }
 
-/// All products of powers below `degree` of the coordinates.
+/// All products of powers of the coordinates: each below `degree`, for simplices also their sum.
 template <int dim>
-Eigen::VectorXd monomials(const dealii::Point<dim> &x, unsigned int degree)
+Eigen::VectorXd monomials(const dealii::Point<dim> &x, unsigned int degree, bool is_simplex)
 {
   unsigned int n = 1;
   for (int d = 0; d < dim; ++d)
     n *= degree;
-  Eigen::VectorXd values(n);
+  std::vector<double> values;
   for (unsigned int i = 0; i < n; ++i)
   {
-    values[i] = 1.;
-    unsigned int rest = i;
+    double value = 1.;
+    unsigned int rest = i, sum = 0;
     for (int d = 0; d < dim; ++d, rest /= degree)
-      values[i] *= std::pow(x[d], rest % degree);
+    {
+      value *= std::pow(x[d], rest % degree);
+      sum += rest % degree;
+    }
+    if (!is_simplex || sum < degree)
+      values.push_back(value);
   }
-  return values;
+  return Eigen::Map<const Eigen::VectorXd>(values.data(), values.size());
 }
 } // namespace
 
@@ -46,40 +49,40 @@ StressRecovery<dim>::StressRecovery(const Discretization<dim> &the_discretizatio
     : discretization(&the_discretization)
 {
   recovered = {{discretization->make_vector(), discretization->make_vector()}};
-  fit_cells();
-  tabulate_shape_functions();
+  for (const MeshPart<dim> *part : discretization->parts)
+    fits.push_back(fit_cells(*part));
 }
 
 template <int dim>
-void StressRecovery<dim>::fit_cells()
+typename StressRecovery<dim>::CellFit StressRecovery<dim>::fit_cells(const MeshPart<dim> &part)
 {
-  const unsigned int degree = discretization->element.degree;
-  const dealii::QGauss<dim> points(degree + 1);
-  const std::vector<dealii::Point<dim>> &nodes =
-      discretization->element.base_element(0).get_unit_support_points();
-  const unsigned int n_terms = monomials(nodes[0], degree).size();
+  const dealii::FiniteElement<dim> &element = part.element.base_element(0);
+  const bool is_simplex = part.element.reference_cell().is_simplex();
+  const dealii::Quadrature<dim> points = part.cell_rule();
+  const std::vector<dealii::Point<dim>> &nodes = element.get_unit_support_points();
+  const auto n_terms = monomials(nodes[0], element.degree, is_simplex).size();
   Eigen::MatrixXd at_points(points.size(), n_terms), at_nodes(nodes.size(), n_terms);
   Eigen::VectorXd weights(points.size());
   for (unsigned int q = 0; q < points.size(); ++q)
   {
-    at_points.row(q) = monomials(points.point(q), degree);
+    at_points.row(q) = monomials(points.point(q), element.degree, is_simplex);
     weights[q] = points.weight(q);
   }
   for (unsigned int a = 0; a < nodes.size(); ++a)
-    at_nodes.row(a) = monomials(nodes[a], degree);
+    at_nodes.row(a) = monomials(nodes[a], element.degree, is_simplex);
   const Eigen::MatrixXd moments = at_points.transpose() * weights.asDiagonal();
-  fit = at_nodes * (moments * at_points).inverse() * moments;
+  CellFit fit{part.first_cell, at_nodes * (moments * at_points).inverse() * moments,
+              Eigen::MatrixXd(nodes.size(), points.size())};
+  for (unsigned int a = 0; a < nodes.size(); ++a)
+    for (unsigned int q = 0; q < points.size(); ++q)
+      fit.shape_values(a, q) = element.shape_value(a, points.point(q));
+  return fit;
 }
 
 template <int dim>
-void StressRecovery<dim>::tabulate_shape_functions()
+const typename StressRecovery<dim>::CellFit &StressRecovery<dim>::fit_of(unsigned int cell) const
 {
-  const auto &element = discretization->element.base_element(0);
-  const dealii::QGauss<dim> points(element.degree + 1);
-  shape_values.resize(element.n_dofs_per_cell(), points.size());
-  for (unsigned int a = 0; a < element.n_dofs_per_cell(); ++a)
-    for (unsigned int q = 0; q < points.size(); ++q)
-      shape_values(a, q) = element.shape_value(a, points.point(q));
+  return fits.size() > 1 && cell >= fits[1].first_cell ? fits[1] : fits[0];
 }
 
 template <int dim>
@@ -95,13 +98,15 @@ void StressRecovery<dim>::recover(const std::vector<Eigen::Matrix3d> &point_stre
   for (unsigned int cell = 0; cell < cells.n_cells; ++cell)
   {
     const double *weights = cells.cell_weights(cell);
-    const double volume = std::accumulate(weights, weights + cells.n_points, 0.);
+    const unsigned int n_points = cells.n_points(cell);
+    const double volume = std::accumulate(weights, weights + n_points, 0.);
     const unsigned int *dofs = cells.cell_dofs(cell);
-    for (unsigned int a = 0; a < cells.n_nodes; ++a)
+    const Eigen::MatrixXd &fit = fit_of(cell).fit;
+    for (unsigned int a = 0; a < cells.n_nodes(cell); ++a)
     {
       Eigen::Matrix3d stress = Eigen::Matrix3d::Zero();
-      for (unsigned int q = 0; q < cells.n_points; ++q)
-        stress += fit(a, q) * point_stresses[cell * cells.n_points + q];
+      for (unsigned int q = 0; q < n_points; ++q)
+        stress += fit(a, q) * point_stresses[cells.first_point(cell) + q];
       for (unsigned int d = 0; d < dim; ++d)
       {
         volumes.local_element(dofs[a * dim + d]) += volume;
@@ -129,8 +134,8 @@ std::vector<Eigen::Matrix3d> StressRecovery<dim>::nodal_stresses(unsigned int ce
 {
   const CellTable<dim> &cells = discretization->cells;
   const unsigned int *dofs = cells.cell_dofs(cell);
-  std::vector<Eigen::Matrix3d> stresses(cells.n_nodes, Eigen::Matrix3d::Zero());
-  for (unsigned int a = 0; a < cells.n_nodes; ++a)
+  std::vector<Eigen::Matrix3d> stresses(cells.n_nodes(cell), Eigen::Matrix3d::Zero());
+  for (unsigned int a = 0; a < stresses.size(); ++a)
     for (unsigned int d = 0; d < dim; ++d)
       for (unsigned int half = 0; half < 2; ++half)
       {
@@ -141,9 +146,10 @@ std::vector<Eigen::Matrix3d> StressRecovery<dim>::nodal_stresses(unsigned int ce
 }
 
 template <int dim>
-Eigen::Matrix3d StressRecovery<dim>::interpolate(const std::vector<Eigen::Matrix3d> &nodal,
+Eigen::Matrix3d StressRecovery<dim>::interpolate(unsigned int cell, const std::vector<Eigen::Matrix3d> &nodal,
                                                  unsigned int point) const
 {
+  const Eigen::MatrixXd &shape_values = fit_of(cell).shape_values;
   Eigen::Matrix3d stress = Eigen::Matrix3d::Zero();
   for (unsigned int a = 0; a < nodal.size(); ++a)
     stress += shape_values(a, point) * nodal[a];

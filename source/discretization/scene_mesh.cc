@@ -12,7 +12,7 @@ namespace signorini
 {
 namespace
 {
-constexpr unsigned int max_boundaries_of_a_body = 8;
+constexpr unsigned int max_boundaries_of_a_body = 4096;
 
 template <int dim>
 struct CoarseScene
@@ -159,14 +159,18 @@ make_scene_mesh(const std::vector<BodyParameters> &bodies, const MPI_Comm &commu
 {
   CoarseScene<dim> scene;
   for (unsigned int body = 0; body < bodies.size(); ++body)
-    append_body(bodies[body], body, scene);
+    if (bodies[body].mesh.cell_type == MeshParameters::CellType::hexahedra)
+      append_body(bodies[body], body, scene);
+  if (scene.cells.empty())
+    return nullptr;
 
   using Mesh = dealii::parallel::distributed::Triangulation<dim>;
   auto mesh = std::make_unique<Mesh>(communicator, dealii::Triangulation<dim>::none,
                                      Mesh::no_automatic_repartitioning);
   mesh->create_triangulation(scene.vertices, scene.cells, scene.faces);
   for (unsigned int body = 0; body < bodies.size(); ++body)
-    set_manifold(bodies[body], body, *mesh);
+    if (bodies[body].mesh.cell_type == MeshParameters::CellType::hexahedra)
+      set_manifold(bodies[body], body, *mesh);
   const FileLevels<dim> levels(bodies);
   for (unsigned int level = 0; level < levels.n_levels(); ++level)
   {
@@ -179,10 +183,42 @@ make_scene_mesh(const std::vector<BodyParameters> &bodies, const MPI_Comm &commu
   return mesh;
 }
 
+template <int dim>
+std::vector<PlacedSimplexMesh> place_simplex_meshes(const std::vector<BodyParameters> &bodies, unsigned int)
+{
+  std::vector<PlacedSimplexMesh> meshes;
+  for (unsigned int body = 0; body < bodies.size(); ++body)
+  {
+    if (bodies[body].mesh.cell_type != MeshParameters::CellType::tetrahedra)
+      continue;
+    const Placement<dim> placement(bodies[body].placement);
+    const auto place = [&placement](Triple &point)
+    {
+      dealii::Point<dim> own;
+      for (unsigned int d = 0; d < dim; ++d)
+        own[d] = point[d];
+      const dealii::Point<dim> placed = placement.place(own);
+      for (unsigned int d = 0; d < dim; ++d)
+        point[d] = placed[d];
+    };
+    SimplexMesh mesh = *bodies[body].mesh.mesh_of_file;
+    for (Triple &vertex : mesh.vertices)
+      place(vertex);
+    for (auto &midpoint : mesh.edge_midpoints)
+      place(midpoint.second);
+    meshes.push_back({body, std::move(mesh)});
+  }
+  return meshes;
+}
+
 template class FileLevels<2>;
 template class FileLevels<3>;
 template std::unique_ptr<dealii::parallel::distributed::Triangulation<2>>
 make_scene_mesh<2>(const std::vector<BodyParameters> &, const MPI_Comm &);
 template std::unique_ptr<dealii::parallel::distributed::Triangulation<3>>
 make_scene_mesh<3>(const std::vector<BodyParameters> &, const MPI_Comm &);
+template std::vector<PlacedSimplexMesh> place_simplex_meshes<2>(const std::vector<BodyParameters> &,
+                                                                unsigned int);
+template std::vector<PlacedSimplexMesh> place_simplex_meshes<3>(const std::vector<BodyParameters> &,
+                                                                unsigned int);
 } // namespace signorini

@@ -5,8 +5,6 @@
 #include "signorini/base/exceptions.h"
 #include "signorini/discretization/scene_mesh.h"
 
-#include <deal.II/dofs/dof_tools.h>
-
 #include <algorithm>
 
 namespace signorini
@@ -30,27 +28,27 @@ template <int dim>
 Entries<dim> find_entries_of_own_cells(const Scene<dim> &scene, const Discretization<dim> &discretization)
 {
   const auto supported = find_supported_boundaries(scene);
-  std::map<dealii::types::global_dof_index, dealii::Point<dim>> positions;
-  dealii::DoFTools::map_dofs_to_support_points(discretization.mapping, discretization.dof_handler, positions);
-
   Entries<dim> entries;
-  std::vector<dealii::types::global_dof_index> face_dofs(discretization.element.n_dofs_per_face());
-  for (const auto &cell : discretization.dof_handler.active_cell_iterators())
-    if (cell->is_locally_owned())
-      for (const auto &face : cell->face_iterators())
-        if (face->at_boundary())
-        {
-          const auto [first, last] = supported.equal_range(face->boundary_id());
-          if (first == last)
-            continue;
-          face->get_dof_indices(face_dofs);
-          for (auto support = first; support != last; ++support)
-            for (unsigned int i = 0; i < face_dofs.size(); ++i)
-              if (discretization.element.face_system_to_component_index(i).first ==
-                      scene.supports[support->second].component &&
-                  !discretization.hanging_constraints.is_constrained(face_dofs[i]))
-                entries.push_back({face_dofs[i], support->second, positions[face_dofs[i]]});
-        }
+  const auto collect = [&](const MeshPart<dim> &part, const auto &cell, unsigned int)
+  {
+    for (const unsigned int face : cell->face_indices())
+    {
+      const auto [first, last] = supported.equal_range(cell->face(face)->boundary_id());
+      if (!cell->face(face)->at_boundary() || first == last)
+        continue;
+      for (const auto &dofs : part.face_nodes(cell, face))
+      {
+        if (discretization.hanging_constraints.is_constrained(dofs[0]))
+          continue;
+        dealii::Point<dim> position;
+        for (unsigned int d = 0; d < dim; ++d)
+          position[d] = discretization.node_positions(dofs[d]);
+        for (auto support = first; support != last; ++support)
+          entries.push_back({dofs[scene.supports[support->second].component], support->second, position});
+      }
+    }
+  };
+  discretization.for_each_own_cell(collect);
   return entries;
 }
 

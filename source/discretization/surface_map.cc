@@ -1,18 +1,19 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "signorini/discretization/surface_map.h"
 
-#include <deal.II/dofs/dof_tools.h>
 #include <deal.II/fe/fe_tools.h>
 
 #include <Eigen/Geometry>
 
+#include <numeric>
 #include <unordered_map>
 
 namespace signorini
 {
 namespace
 {
-/// A facet as it travels between ranks: body, thickness, room, then for every node its dofs and position.
+/// A facet travels between ranks as its body, thickness, room and type, then for every node its dofs and
+/// position.
 template <int dim>
 struct TravellingNode
 {
@@ -20,78 +21,167 @@ struct TravellingNode
   SpatialVector<dim> position;
 };
 
+/// Indices of the corners, in turn around the facet.
 template <int dim>
-SpatialVector<dim> area_normal_at_centre(const std::vector<TravellingNode<dim>> &nodes, unsigned int degree)
+std::vector<unsigned int> corners_of(const Facet<dim> &facet)
 {
-  const auto corner = [&](unsigned int i, unsigned int j)
-  { return nodes[degree * (i + j * (degree + 1))].position; };
-  const SpatialVector<dim> t = corner(1, 0) - corner(0, 0);
+  const unsigned int degree = facet.degree;
   if constexpr (dim == 2)
-    return SpatialVector<2>(t[1], -t[0]);
+    return {0, degree};
+  else if (facet.type == FacetType::triangle)
+    return {0, 1, 2};
+  else
+    return {0, degree, (degree + 1) * (degree + 1) - 1, degree * (degree + 1)};
+}
+
+template <int dim>
+SpatialVector<dim> mean_area_normal(const std::vector<TravellingNode<dim>> &nodes,
+                                    const std::vector<unsigned int> &corners)
+{
+  const auto from_first = [&](unsigned int i) -> SpatialVector<dim>
+  { return nodes[corners[i]].position - nodes[corners[0]].position; };
+  if constexpr (dim == 2)
+    return SpatialVector<2>(from_first(1)[1], -from_first(1)[0]);
   else
   {
-    const SpatialVector<3> a = corner(1, 1) - corner(0, 0), b = corner(0, 1) - corner(1, 0);
-    return 0.5 * a.cross(b);
+    SpatialVector<3> normal = SpatialVector<3>::Zero();
+    for (unsigned int i = 1; i + 1 < corners.size(); ++i)
+      normal += 0.5 * from_first(i).cross(from_first(i + 1));
+    return normal;
   }
 }
 
-/// Swaps the local directions (2-D: reverses the nodes), which turns the normal around.
+/// Turns the normal around.
 template <int dim>
-void turn_around(std::vector<TravellingNode<dim>> &nodes, unsigned int degree)
+void turn_around(std::vector<TravellingNode<dim>> &nodes, const Facet<dim> &facet)
 {
+  const unsigned int degree = facet.degree;
   if (dim == 2)
     std::reverse(nodes.begin(), nodes.end());
+  else if (facet.type == FacetType::triangle)
+  {
+    std::swap(nodes[1], nodes[2]);
+    if (degree == 2)
+      std::swap(nodes[3], nodes[5]);
+  }
   else
     for (unsigned int j = 0; j <= degree; ++j)
       for (unsigned int i = 0; i < j; ++i)
         std::swap(nodes[i + j * (degree + 1)], nodes[j + i * (degree + 1)]);
 }
 
+/// Vertices of the mesh that lie on its boundary, as far as this rank knows.
 template <int dim>
-std::vector<double> pack_own_facets(const Discretization<dim> &discretization)
+std::vector<bool> find_boundary_vertices(const dealii::Triangulation<dim> &mesh)
 {
-  const auto &element = discretization.element;
-  const std::vector<unsigned int> lexicographic =
-      dealii::FETools::hierarchic_to_lexicographic_numbering<dim - 1>(element.degree);
-  std::map<dealii::types::global_dof_index, dealii::Point<dim>> positions;
-  dealii::DoFTools::map_dofs_to_support_points(discretization.mapping, discretization.dof_handler, positions);
-
-  std::vector<double> packed;
-  std::vector<dealii::types::global_dof_index> face_dofs(element.n_dofs_per_face());
-  std::vector<TravellingNode<dim>> nodes(element.n_dofs_per_face() / dim);
-  for (const auto &cell : discretization.dof_handler.active_cell_iterators())
-    if (cell->is_locally_owned() && cell->at_boundary())
-      for (const unsigned int face_number : cell->face_indices())
-      {
-        const auto face = cell->face(face_number);
-        if (!face->at_boundary())
-          continue;
-        face->get_dof_indices(face_dofs);
-        for (unsigned int i = 0; i < face_dofs.size(); ++i)
-        {
-          const auto [component, node] = element.face_system_to_component_index(i);
-          nodes[lexicographic[node]].dofs[component] = face_dofs[i];
-          for (unsigned int d = 0; d < dim; ++d)
-            nodes[lexicographic[node]].position[d] = positions[face_dofs[i]][d];
-        }
-        SpatialVector<dim> outward;
-        for (unsigned int d = 0; d < dim; ++d)
-          outward[d] = (face->center() - cell->center())[d];
-        if (area_normal_at_centre(nodes, element.degree).dot(outward) < 0.)
-          turn_around(nodes, element.degree);
-
-        packed.push_back(cell->material_id());
-        const double thickness = cell->measure() / face->measure();
-        const bool is_whole_body = cell->face(face_number ^ 1u)->at_boundary(); // the face across
-        packed.insert(packed.end(), {thickness, (is_whole_body ? 0.5 : 1.) * thickness});
-        for (const auto &node : nodes)
-        {
-          packed.insert(packed.end(), node.dofs.begin(), node.dofs.end());
-          packed.insert(packed.end(), node.position.begin(), node.position.end());
-        }
-      }
-  return packed;
+  std::vector<bool> at_boundary(mesh.n_vertices(), false);
+  for (const auto &face : mesh.active_face_iterators())
+    if (face->at_boundary())
+      for (const unsigned int v : face->vertex_indices())
+        at_boundary[face->vertex_index(v)] = true;
+  return at_boundary;
 }
+
+/// Collects the outer faces of this rank's cells.
+template <int dim>
+class FacetCollector
+{
+public:
+  explicit FacetCollector(const Discretization<dim> &the_discretization) : discretization(the_discretization)
+  {
+    if (discretization.tetrahedra)
+      boundary_vertices = find_boundary_vertices<dim>(discretization.tetrahedra->triangulation());
+  }
+
+  std::vector<double> pack_own_facets()
+  {
+    discretization.for_each_own_cell(
+        [this](const MeshPart<dim> &part, const auto &cell, unsigned int)
+        {
+          for (const unsigned int face : cell->face_indices())
+            if (cell->face(face)->at_boundary())
+              pack_facet(part, cell, face);
+        });
+    return packed;
+  }
+
+private:
+  using Cell = typename MeshPart<dim>::Cell;
+
+  void pack_facet(const MeshPart<dim> &part, const Cell &cell, unsigned int face)
+  {
+    Facet<dim> facet;
+    facet.degree = discretization.degree;
+    facet.body = cell->material_id();
+    const bool is_simplex = &part == discretization.tetrahedra.get();
+    if (dim == 3 && is_simplex)
+      facet.type = FacetType::triangle;
+    std::vector<TravellingNode<dim>> nodes = ordered_nodes(part, cell, face, facet);
+    SpatialVector<dim> outward;
+    for (unsigned int d = 0; d < dim; ++d)
+      outward[d] = (cell->face(face)->center() - cell->center())[d];
+    const SpatialVector<dim> normal = mean_area_normal(nodes, corners_of(facet));
+    if (normal.dot(outward) < 0.)
+      turn_around(nodes, facet);
+    if (is_simplex)
+      measure_simplex(cell, nodes[0].position, normal.normalized(), facet);
+    else
+    {
+      facet.layer_thickness = cell->measure() / cell->face(face)->measure();
+      const bool is_whole_body = cell->face(face ^ 1u)->at_boundary(); // the face across
+      facet.room = (is_whole_body ? 0.5 : 1.) * facet.layer_thickness;
+    }
+    packed.insert(packed.end(), {static_cast<double>(facet.body), facet.layer_thickness, facet.room,
+                                 static_cast<double>(facet.type)});
+    for (const auto &node : nodes)
+    {
+      packed.insert(packed.end(), node.dofs.begin(), node.dofs.end());
+      packed.insert(packed.end(), node.position.begin(), node.position.end());
+    }
+  }
+
+  /// The face's nodes in the order of a facet, whichever way round.
+  std::vector<TravellingNode<dim>> ordered_nodes(const MeshPart<dim> &part, const Cell &cell,
+                                                 unsigned int face, const Facet<dim> &facet) const
+  {
+    const auto face_nodes = part.face_nodes(cell, face);
+    std::vector<unsigned int> order(face_nodes.size());
+    std::iota(order.begin(), order.end(), 0);
+    if (facet.type == FacetType::tensor_product)
+      order = dealii::FETools::hierarchic_to_lexicographic_numbering<dim - 1>(facet.degree);
+    std::vector<TravellingNode<dim>> nodes(face_nodes.size());
+    for (unsigned int i = 0; i < nodes.size(); ++i)
+    {
+      TravellingNode<dim> &node = nodes[order[i]];
+      node.dofs = face_nodes[i];
+      for (unsigned int d = 0; d < dim; ++d)
+        node.position[d] = discretization.node_positions(face_nodes[i][d]);
+    }
+    return nodes;
+  }
+
+  /// The height over the face; where the corner across is on the boundary, the body ends there.
+  void measure_simplex(const Cell &cell, const SpatialVector<dim> &point, const SpatialVector<dim> &normal,
+                       Facet<dim> &facet) const
+  {
+    for (const unsigned int v : cell->vertex_indices())
+    {
+      SpatialVector<dim> arm;
+      for (unsigned int d = 0; d < dim; ++d)
+        arm[d] = cell->vertex(v)[d] - point[d];
+      const double height = std::abs(arm.dot(normal));
+      if (height > facet.layer_thickness)
+      {
+        facet.layer_thickness = height;
+        facet.room = (boundary_vertices[cell->vertex_index(v)] ? 0.5 : 1.) * height;
+      }
+    }
+  }
+
+  const Discretization<dim> &discretization;
+  std::vector<bool> boundary_vertices; ///< of the tetrahedra
+  std::vector<double> packed;
+};
 } // namespace
 
 template <int dim>
@@ -99,9 +189,9 @@ SurfaceMap<dim>::SurfaceMap(const Scene<dim> &scene, const Discretization<dim> &
     : discretization(&the_discretization)
 {
   contact_surface.n_bodies = scene.n_bodies();
-  number_nodes(
-      dealii::Utilities::MPI::all_gather(discretization->communicator(), pack_own_facets(*discretization)),
-      dealii::Utilities::MPI::this_mpi_process(discretization->communicator()));
+  number_nodes(dealii::Utilities::MPI::all_gather(discretization->communicator(),
+                                                  FacetCollector<dim>(*discretization).pack_own_facets()),
+               dealii::Utilities::MPI::this_mpi_process(discretization->communicator()));
   move_origin();
   for (Facet<dim> &facet : contact_surface.facets)
   {
@@ -124,17 +214,17 @@ template <int dim>
 void SurfaceMap<dim>::number_nodes(const std::vector<std::vector<double>> &packed_facets,
                                    unsigned int this_rank)
 {
-  const unsigned int degree = discretization->element.degree;
   std::unordered_map<dealii::types::global_dof_index, unsigned int> node_of_dof;
   for (unsigned int rank = 0; rank < packed_facets.size(); ++rank)
     for (auto value = packed_facets[rank].begin(); value != packed_facets[rank].end();)
     {
       Facet<dim> facet;
-      facet.degree = degree;
+      facet.degree = discretization->degree;
       facet.owned = (rank == this_rank);
       facet.body = static_cast<unsigned int>(*value++);
       facet.layer_thickness = *value++;
       facet.room = *value++;
+      facet.type = static_cast<FacetType>(*value++);
       for (unsigned int i = 0; i < facet.n_nodes(); ++i)
       {
         std::array<dealii::types::global_dof_index, dim> node_dofs;

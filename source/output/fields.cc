@@ -20,19 +20,55 @@ double von_mises(const Eigen::Matrix3d &stress)
   return std::sqrt(1.5) * deviator.norm();
 }
 
-/// Cell data by name, indexed by active cell as DataOut wants them.
+/// A part's data for output, whose patches can be taken out.
 template <int dim>
-std::vector<std::pair<std::string, dealii::Vector<float>>>
-make_cell_data(const Discretization<dim> &discretization, const InternalForce<dim> &elasticity,
-               const ErrorEstimate &estimate)
+class PartOutput : public dealii::DataOut<dim>
 {
-  std::vector<std::pair<std::string, dealii::Vector<float>>> data;
+public:
+  using dealii::DataOut<dim>::get_patches;
+  using dealii::DataOut<dim>::get_dataset_names;
+  using dealii::DataOut<dim>::get_nonscalar_data_ranges;
+};
+
+/// The patches of all parts of the mesh, which must have the same data.
+template <int dim>
+class MergedOutput : public dealii::DataOutInterface<dim>
+{
+public:
+  void add(const PartOutput<dim> &output)
+  {
+    patches.insert(patches.end(), output.get_patches().begin(), output.get_patches().end());
+    names = output.get_dataset_names();
+    ranges = output.get_nonscalar_data_ranges();
+  }
+
+private:
+  using Patch = dealii::DataOutBase::Patch<dim, dim>;
+  using Range = std::tuple<unsigned int, unsigned int, std::string,
+                           dealii::DataComponentInterpretation::DataComponentInterpretation>;
+
+  const std::vector<Patch> &get_patches() const override { return patches; }
+  std::vector<std::string> get_dataset_names() const override { return names; }
+  std::vector<Range> get_nonscalar_data_ranges() const override { return ranges; }
+
+  std::vector<Patch> patches;
+  std::vector<std::string> names;
+  std::vector<Range> ranges;
+};
+
+using CellData = std::vector<std::pair<std::string, dealii::Vector<float>>>;
+
+/// A part's cell data by name, indexed by active cell as DataOut wants them.
+template <int dim>
+CellData make_cell_data(const MeshPart<dim> &part, const std::vector<Eigen::Matrix3d> &stresses,
+                        const ErrorEstimate &estimate)
+{
+  CellData data;
   for (const char *name : {"body", "error_indicator", "von_mises_stress", "stress_xx", "stress_yy",
                            "stress_zz", "stress_xy", "stress_yz", "stress_xz"})
-    data.emplace_back(name, dealii::Vector<float>(discretization.mesh->n_active_cells()));
-  const std::vector<Eigen::Matrix3d> stresses = elasticity.stresses();
-  unsigned int own_cell = 0;
-  for (const auto &cell : discretization.dof_handler.active_cell_iterators())
+    data.emplace_back(name, dealii::Vector<float>(part.triangulation().n_active_cells()));
+  unsigned int own_cell = part.first_cell;
+  for (const auto &cell : part.dof_handler.active_cell_iterators())
     if (cell->is_locally_owned())
     {
       const Eigen::Matrix3d &s = stresses[own_cell];
@@ -65,37 +101,47 @@ void Fields<dim>::set_mesh(const Discretization<dim> &the_discretization, const 
 template <int dim>
 void Fields<dim>::number_contact_fields()
 {
-  contact.reset(new ContactFields{dealii::FE_Q<dim>(discretization->element.degree), {}, {}, {}});
-  contact->dof_handler.reinit(*discretization->mesh);
-  contact->dof_handler.distribute_dofs(contact->element);
-  dealii::DoFTools::extract_locally_relevant_dofs(contact->dof_handler, contact->relevant);
+  contacts.clear();
+  for (const MeshPart<dim> *part : discretization->parts)
+    contacts.push_back(number_contact_fields_of(*part));
+}
+
+template <int dim>
+std::unique_ptr<typename Fields<dim>::ContactFields>
+Fields<dim>::number_contact_fields_of(const MeshPart<dim> &part) const
+{
+  auto fields = std::make_unique<ContactFields>();
+  fields->dof_handler.reinit(part.triangulation());
+  fields->dof_handler.distribute_dofs(part.element.base_element(0));
+  dealii::DoFTools::extract_locally_relevant_dofs(fields->dof_handler, fields->relevant);
 
   std::unordered_map<dealii::types::global_dof_index, dealii::types::global_dof_index> scalar_dofs;
-  std::vector<dealii::types::global_dof_index> dofs(discretization->element.n_dofs_per_cell()),
-      scalars(contact->element.n_dofs_per_cell());
-  auto scalar_cell = contact->dof_handler.begin_active();
-  for (const auto &cell : discretization->dof_handler.active_cell_iterators())
+  std::vector<dealii::types::global_dof_index> dofs(part.element.n_dofs_per_cell()),
+      scalars(part.element.n_dofs_per_cell() / dim);
+  auto scalar_cell = fields->dof_handler.begin_active();
+  for (const auto &cell : part.dof_handler.active_cell_iterators())
   {
     if (cell->is_locally_owned())
     {
-      cell->get_dof_indices(dofs);
+      part.get_dof_indices(cell, dofs);
       scalar_cell->get_dof_indices(scalars);
       for (unsigned int node = 0; node < scalars.size(); ++node)
-        scalar_dofs[dofs[discretization->element.component_to_system_index(0, node)]] = scalars[node];
+        scalar_dofs[dofs[part.element.component_to_system_index(0, node)]] = scalars[node];
     }
     ++scalar_cell;
   }
-  const dealii::IndexSet &owned = contact->dof_handler.locally_owned_dofs();
+  const dealii::IndexSet &owned = fields->dof_handler.locally_owned_dofs();
   for (unsigned int node = 0; node < map->surface().n_nodes(); ++node)
   {
     const auto scalar = scalar_dofs.find(map->node_dofs(node)[0]);
     if (scalar != scalar_dofs.end() && owned.is_element(scalar->second))
-      contact->owned.emplace_back(node, scalar->second);
+      fields->owned.emplace_back(node, scalar->second);
   }
+  return fields;
 }
 
 template <int dim>
-std::pair<Vector, Vector> Fields<dim>::project_contact(const SceneForces<dim> &forces) const
+typename Fields<dim>::NodalContact Fields<dim>::project_contact(const SceneForces<dim> &forces) const
 {
   const ContactSurface<dim> &surface = map->surface();
   std::vector<double> pressures(surface.n_nodes(), 0.), gaps(surface.n_nodes(), 0.),
@@ -126,13 +172,20 @@ std::pair<Vector, Vector> Fields<dim>::project_contact(const SceneForces<dim> &f
     for (unsigned int i = 0; i < facet.n_nodes(); ++i)
       far_gap[facet.nodes[i]] = std::max(far_gap[facet.nodes[i]], facet.layer_thickness);
 
-  Vector pressure(contact->dof_handler.locally_owned_dofs(), contact->relevant,
-                  discretization->communicator());
+  for (unsigned int node = 0; node < surface.n_nodes(); ++node)
+    gaps[node] = areas[node] > 0. ? gaps[node] / areas[node] : far_gap[node];
+  return {pressures, gaps};
+}
+
+template <int dim>
+std::pair<Vector, Vector> Fields<dim>::spread(const NodalContact &nodal, const ContactFields &fields) const
+{
+  Vector pressure(fields.dof_handler.locally_owned_dofs(), fields.relevant, discretization->communicator());
   Vector gap(pressure);
-  for (const auto &[node, dof] : contact->owned)
+  for (const auto &[node, dof] : fields.owned)
   {
-    pressure[dof] = pressures[node];
-    gap[dof] = areas[node] > 0. ? gaps[node] / areas[node] : far_gap[node];
+    pressure[dof] = nodal.pressures[node];
+    gap[dof] = nodal.gaps[node];
   }
   pressure.update_ghost_values();
   gap.update_ghost_values();
@@ -142,29 +195,41 @@ std::pair<Vector, Vector> Fields<dim>::project_contact(const SceneForces<dim> &f
 template <int dim>
 void Fields<dim>::write(const State &state, const SceneForces<dim> &forces, const ErrorEstimate &estimate)
 {
-  dealii::DataOut<dim> data_out;
+  MergedOutput<dim> data_out;
   dealii::DataOutBase::VtkFlags flags;
   flags.compression_level = dealii::DataOutBase::VtkFlags::ZlibCompressionLevel::best_speed;
   data_out.set_flags(flags);
   const std::vector<dealii::DataComponentInterpretation::DataComponentInterpretation> vector_data(
       dim, dealii::DataComponentInterpretation::component_is_part_of_vector);
   const auto names = [](const char *name) { return std::vector<std::string>(dim, name); };
-  data_out.attach_dof_handler(discretization->dof_handler);
-  data_out.add_data_vector(discretization->dof_handler, state.displacement, names("displacement"),
-                           vector_data);
-  if (state.velocity.size() > 0)
-    data_out.add_data_vector(discretization->dof_handler, state.velocity, names("velocity"), vector_data);
-  std::pair<Vector, Vector> contact_data;
-  if (map)
+  const std::vector<Eigen::Matrix3d> stresses = forces.elasticity->stresses();
+  const NodalContact nodal = map ? project_contact(forces) : NodalContact();
+  for (unsigned int p = 0; p < discretization->parts.size(); ++p)
   {
-    contact_data = project_contact(forces);
-    data_out.add_data_vector(contact->dof_handler, contact_data.first, "contact_pressure");
-    data_out.add_data_vector(contact->dof_handler, contact_data.second, "gap");
+    const MeshPart<dim> &part = *discretization->parts[p];
+    PartOutput<dim> output;
+    output.attach_dof_handler(part.dof_handler);
+    const Vector displacement = part.extract(state.displacement);
+    output.add_data_vector(part.dof_handler, displacement, names("displacement"), vector_data);
+    Vector velocity;
+    if (state.velocity.size() > 0)
+    {
+      velocity = part.extract(state.velocity);
+      output.add_data_vector(part.dof_handler, velocity, names("velocity"), vector_data);
+    }
+    std::pair<Vector, Vector> contact_data;
+    if (map)
+    {
+      contact_data = spread(nodal, *contacts[p]);
+      output.add_data_vector(contacts[p]->dof_handler, contact_data.first, "contact_pressure");
+      output.add_data_vector(contacts[p]->dof_handler, contact_data.second, "gap");
+    }
+    const CellData cell_data = make_cell_data(part, stresses, estimate);
+    for (const auto &[name, values] : cell_data)
+      output.add_data_vector(values, name, dealii::DataOut<dim>::type_cell_data);
+    output.build_patches(part.mapping(), part.element.degree);
+    data_out.add(output);
   }
-  const auto cell_data = make_cell_data(*discretization, *forces.elasticity, estimate);
-  for (const auto &[name, values] : cell_data)
-    data_out.add_data_vector(values, name, dealii::DataOut<dim>::type_cell_data);
-  data_out.build_patches(discretization->mapping, discretization->element.degree);
 
   try
   {

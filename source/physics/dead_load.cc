@@ -4,25 +4,34 @@
 #include "signorini/base/collective_error.h"
 #include "signorini/discretization/scene_mesh.h"
 
-#include <deal.II/base/quadrature_lib.h>
 #include <deal.II/fe/fe_values.h>
 
 namespace signorini
 {
 template <int dim>
-DeadLoad<dim>::DeadLoad(const Scene<dim> &the_scene, const Discretization<dim> &the_discretization)
+DeadLoad<dim>::DeadLoad(const Scene<dim> &the_scene, const Discretization<dim> &the_discretization,
+                        WeightShares shares)
     : ForceTerm("loads", Kind::load, true), scene(&the_scene), discretization(&the_discretization),
       weight(the_discretization.make_vector())
 {
-  const CellTable<dim> &cells = discretization->cells;
   if (scene->gravity.norm() > 0.)
-    for (unsigned int cell = 0; cell < cells.n_cells; ++cell)
-      for (unsigned int i = 0; i < cells.n_cell_dofs(); ++i)
-        weight.local_element(cells.cell_dofs(cell)[i]) +=
-            scene->materials[cells.bodies[cell]].density * scene->gravity[i % dim] *
-            cells.nodal_measures[cell * cells.n_nodes + i / dim];
+    add_weight(shares);
   discretization->collect(weight);
   collect_points();
+}
+
+template <int dim>
+void DeadLoad<dim>::add_weight(WeightShares shares)
+{
+  const CellTable<dim> &cells = discretization->cells;
+  for (unsigned int cell = 0; cell < cells.n_cells; ++cell)
+  {
+    const double *volumes = shares == WeightShares::lumped_mass ? cells.cell_nodal_measures(cell)
+                                                                : cells.cell_shape_integrals(cell);
+    for (unsigned int i = 0; i < cells.n_cell_dofs(cell); ++i)
+      weight.local_element(cells.cell_dofs(cell)[i]) +=
+          scene->materials[cells.bodies[cell]].density * scene->gravity[i % dim] * volumes[i / dim];
+  }
 }
 
 template <int dim>
@@ -31,14 +40,21 @@ void DeadLoad<dim>::collect_points()
   std::multimap<dealii::types::boundary_id, unsigned int> loaded;
   for (unsigned int l = 0; l < scene->loads.size(); ++l)
     loaded.emplace(global_boundary_id(scene->loads[l].body, scene->loads[l].boundary_id), l);
+  for (const MeshPart<dim> *part : discretization->parts)
+    collect_points_of(*part, loaded);
+}
 
-  const auto &element = discretization->element;
-  const dealii::QGauss<dim - 1> quadrature(element.degree + 1);
-  dealii::FEFaceValues<dim> values(discretization->mapping, element, quadrature,
+template <int dim>
+void DeadLoad<dim>::collect_points_of(const MeshPart<dim> &part,
+                                      const std::multimap<dealii::types::boundary_id, unsigned int> &loaded)
+{
+  const auto &element = part.element;
+  const dealii::Quadrature<dim - 1> quadrature = part.face_gauss_rule(element.degree + 1);
+  dealii::FEFaceValues<dim> values(part.mapping(), element, quadrature,
                                    dealii::update_values | dealii::update_JxW_values |
                                        dealii::update_quadrature_points);
   std::vector<dealii::types::global_dof_index> dofs(element.n_dofs_per_cell());
-  for (const auto &cell : discretization->dof_handler.active_cell_iterators())
+  for (const auto &cell : part.dof_handler.active_cell_iterators())
     if (cell->is_locally_owned())
       for (const unsigned int f : cell->face_indices())
       {
@@ -48,7 +64,7 @@ void DeadLoad<dim>::collect_points()
         if (first == last)
           continue;
         values.reinit(cell, f);
-        cell->get_dof_indices(dofs);
+        part.get_dof_indices(cell, dofs);
         for (auto load = first; load != last; ++load)
           for (unsigned int q = 0; q < quadrature.size(); ++q)
           {

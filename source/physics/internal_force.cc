@@ -17,7 +17,7 @@ InternalForce<dim>::InternalForce(const std::vector<MaterialParameters> &materia
   {
     const double E = material.youngs_modulus, nu = material.poissons_ratio;
     const double shear_modulus = E / (2. * (1. + nu)), bulk_modulus = E / (3. * (1. - 2. * nu));
-    const unsigned int degree = discretization->element.degree;
+    const unsigned int degree = discretization->degree;
     moduli.push_back(bulk_modulus + 4. / 3. * shear_modulus);
     if (material.model == MaterialParameters::Model::linear_elastic)
       kernels.emplace_back(CellKernel<dim, LinearElastic<dim>>({shear_modulus, bulk_modulus}, degree));
@@ -37,7 +37,7 @@ template <typename Action>
 void InternalForce<dim>::for_each_cell(const Action &action) const
 {
   const CellTable<dim> &cells = discretization->cells;
-  std::vector<double> u(cells.n_cell_dofs());
+  std::vector<double> u;
   unsigned int cell = 0;
   while (cell < cells.n_cells)
   {
@@ -48,10 +48,11 @@ void InternalForce<dim>::for_each_cell(const Action &action) const
           for (; cell < cells.n_cells && cells.bodies[cell] == body; ++cell)
           {
             const unsigned int *dofs = cells.cell_dofs(cell);
+            u.resize(cells.n_cell_dofs(cell));
             for (unsigned int i = 0; i < u.size(); ++i)
               u[i] = displacement->local_element(dofs[i]);
             action(kernel, cell,
-                   CellGeometry{cells.n_nodes, cells.n_points, cells.cell_gradients(cell),
+                   CellGeometry{cells.n_nodes(cell), cells.n_points(cell), cells.cell_gradients(cell),
                                 cells.cell_weights(cell)},
                    u.data());
           }
@@ -73,11 +74,11 @@ template <int dim>
 void InternalForce<dim>::add_force(Vector &force) const
 {
   const CellTable<dim> &cells = discretization->cells;
-  std::vector<double> cell_force(cells.n_cell_dofs());
+  std::vector<double> cell_force;
   for_each_cell(
       [&](auto &kernel, unsigned int cell, const CellGeometry &geometry, const double *u)
       {
-        std::fill(cell_force.begin(), cell_force.end(), 0.);
+        cell_force.assign(cells.n_cell_dofs(cell), 0.);
         kernel.add_force(geometry, u, cell_force.data());
         const unsigned int *dofs = cells.cell_dofs(cell);
         for (unsigned int i = 0; i < cell_force.size(); ++i)
@@ -89,10 +90,12 @@ template <int dim>
 void InternalForce<dim>::for_each_tangent(
     const std::function<void(unsigned int, const std::vector<double> &)> &visit) const
 {
-  std::vector<double> tangent(discretization->cells.n_cell_dofs() * discretization->cells.n_cell_dofs());
+  std::vector<double> tangent;
   for_each_cell(
       [&](auto &kernel, unsigned int cell, const CellGeometry &geometry, const double *u)
       {
+        const unsigned int n = discretization->cells.n_cell_dofs(cell);
+        tangent.resize(n * n);
         kernel.compute_tangent(geometry, u, tangent.data());
         visit(cell, tangent);
       });
@@ -102,14 +105,17 @@ template <int dim>
 void InternalForce<dim>::add_tangent(TangentSystem &system) const
 {
   const CellTable<dim> &cells = discretization->cells;
-  const unsigned int n = cells.n_cell_dofs();
   const auto &partitioner = *displacement->get_partitioner();
-  dealii::FullMatrix<double> matrix(n, n);
-  dealii::Vector<double> zero(n);
-  std::vector<dealii::types::global_dof_index> dofs(n);
+  dealii::FullMatrix<double> matrix;
+  dealii::Vector<double> zero;
+  std::vector<dealii::types::global_dof_index> dofs;
   for_each_tangent(
       [&](unsigned int cell, const std::vector<double> &tangent)
       {
+        const unsigned int n = cells.n_cell_dofs(cell);
+        matrix.reinit(n, n);
+        zero.reinit(n);
+        dofs.resize(n);
         matrix.fill(tangent.data());
         for (unsigned int i = 0; i < n; ++i)
           dofs[i] = partitioner.local_to_global(cells.cell_dofs(cell)[i]);
@@ -122,11 +128,12 @@ template <int dim>
 void InternalForce<dim>::add_magnitudes(Vector &magnitudes) const
 {
   const CellTable<dim> &cells = discretization->cells;
-  std::vector<double> slopes(cells.n_nodes);
+  std::vector<double> slopes;
   for_each_cell(
       [&](auto &, unsigned int cell, const CellGeometry &geometry, const double *u)
       {
         const unsigned int *dofs = cells.cell_dofs(cell);
+        slopes.resize(geometry.n_nodes);
         for (unsigned int q = 0; q < geometry.n_points; ++q)
         {
           double strain = 0.;
@@ -137,7 +144,7 @@ void InternalForce<dim>::add_magnitudes(Vector &magnitudes) const
             strain += slopes[a] * Eigen::Map<const SpatialVector<dim>>(u + a * dim).norm();
           }
           const double stress = moduli[cells.bodies[cell]] * strain;
-          for (unsigned int i = 0; i < cells.n_cell_dofs(); ++i)
+          for (unsigned int i = 0; i < cells.n_cell_dofs(cell); ++i)
             magnitudes.local_element(dofs[i]) += geometry.weights[q] * stress * slopes[i / dim];
         }
       });
@@ -146,10 +153,10 @@ void InternalForce<dim>::add_magnitudes(Vector &magnitudes) const
 template <int dim>
 std::vector<Eigen::Matrix3d> InternalForce<dim>::point_stresses() const
 {
-  const unsigned int n_points = discretization->cells.n_points;
-  std::vector<Eigen::Matrix3d> all(discretization->cells.n_cells * n_points);
+  const CellTable<dim> &cells = discretization->cells;
+  std::vector<Eigen::Matrix3d> all(cells.n_points());
   for_each_cell([&](auto &kernel, unsigned int cell, const CellGeometry &geometry, const double *u)
-                { kernel.compute_stresses(geometry, u, &all[cell * n_points]); });
+                { kernel.compute_stresses(geometry, u, &all[cells.first_point(cell)]); });
   return all;
 }
 
@@ -179,9 +186,10 @@ std::vector<Eigen::Matrix3d> InternalForce<dim>::stresses() const
   for (unsigned int cell = 0; cell < cells.n_cells; ++cell)
   {
     const double *weights = cells.cell_weights(cell);
-    for (unsigned int q = 0; q < cells.n_points; ++q)
-      means[cell] += weights[q] * at_points[cell * cells.n_points + q];
-    means[cell] /= std::accumulate(weights, weights + cells.n_points, 0.);
+    const unsigned int n_points = cells.n_points(cell);
+    for (unsigned int q = 0; q < n_points; ++q)
+      means[cell] += weights[q] * at_points[cells.first_point(cell) + q];
+    means[cell] /= std::accumulate(weights, weights + n_points, 0.);
   }
   return means;
 }

@@ -11,9 +11,9 @@ Vector lump(const Discretization<dim> &discretization, const Factor &factor_of_b
   const CellTable<dim> &cells = discretization.cells;
   Vector lumped = discretization.make_vector();
   for (unsigned int cell = 0; cell < cells.n_cells; ++cell)
-    for (unsigned int i = 0; i < cells.n_cell_dofs(); ++i)
+    for (unsigned int i = 0; i < cells.n_cell_dofs(cell); ++i)
       lumped.local_element(cells.cell_dofs(cell)[i]) +=
-          factor_of_body(cells.bodies[cell]) * cells.nodal_measures[cell * cells.n_nodes + i / dim];
+          factor_of_body(cells.bodies[cell]) * cells.cell_nodal_measures(cell)[i / dim];
   discretization.collect(lumped);
   return lumped;
 }

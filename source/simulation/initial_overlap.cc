@@ -113,9 +113,8 @@ void OverlapSearch<dim>::for_each_point(
       x[d] += displacement.local_element(node.dofs[d]);
     visit(node.body, x);
   }
-  for (const auto &cell : discretization.mesh->active_cell_iterators())
-    if (cell->is_locally_owned())
-      visit(cell->material_id(), to_eigen<dim>(cell->center()));
+  discretization.for_each_own_cell([&](const MeshPart<dim> &, const auto &cell, unsigned int)
+                                   { visit(cell->material_id(), to_eigen<dim>(cell->center())); });
   for (const Facet<dim> &facet : surface.facets)
     if (facet.owned)
       // What lies across a long element may hold none of its nodes.

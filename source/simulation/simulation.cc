@@ -51,7 +51,10 @@ void Simulation<dim>::build_on_mesh()
   forces = SceneForces<dim>();
   forces.elasticity = std::make_shared<InternalForce<dim>>(scene.materials, *discretization);
   if (!scene.loads.empty() || scene.gravity.norm() > 0.)
-    forces.loads.push_back(std::make_shared<DeadLoad<dim>>(scene, *discretization));
+    forces.loads.push_back(std::make_shared<DeadLoad<dim>>(
+        scene, *discretization,
+        std::holds_alternative<ExplicitParameters>(parameters.solver) ? WeightShares::lumped_mass
+                                                                      : WeightShares::shape_integrals));
   if (parameters.contact)
     build_contact();
   estimator = std::make_unique<ErrorEstimator<dim>>(*discretization, scene, forces, surface_map.get());
@@ -59,7 +62,7 @@ void Simulation<dim>::build_on_mesh()
     correction = std::make_unique<ContactCorrection<dim>>(*discretization, scene, forces, *surface_map,
                                                           estimator->boundary_faces());
   results.n_dofs = discretization->n_dofs();
-  results.n_cells = discretization->mesh->n_global_active_cells();
+  results.n_cells = discretization->n_cells();
 }
 
 template <int dim>

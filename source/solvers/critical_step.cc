@@ -13,15 +13,15 @@ double compute_bulk_frequency_squared(const InternalForce<dim> &elasticity,
                                       const Discretization<dim> &discretization)
 {
   const CellTable<dim> &cells = discretization.cells;
-  const unsigned int n = cells.n_cell_dofs();
   double largest = 0.;
-  Eigen::VectorXd root_mass(n);
   elasticity.for_each_tangent(
       [&](unsigned int cell, const std::vector<double> &tangent)
       {
+        const unsigned int n = cells.n_cell_dofs(cell);
+        Eigen::VectorXd root_mass(n);
         for (unsigned int i = 0; i < n; ++i)
-          root_mass[i] = std::sqrt(materials[cells.bodies[cell]].density *
-                                   cells.nodal_measures[cell * cells.n_nodes + i / dim]);
+          root_mass[i] =
+              std::sqrt(materials[cells.bodies[cell]].density * cells.cell_nodal_measures(cell)[i / dim]);
         Eigen::MatrixXd scaled = Eigen::Map<const Eigen::MatrixXd>(tangent.data(), n, n);
         scaled = root_mass.cwiseInverse().asDiagonal() * scaled * root_mass.cwiseInverse().asDiagonal();
         const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(scaled, Eigen::EigenvaluesOnly);

@@ -4,8 +4,6 @@
 #include "signorini/base/exceptions.h"
 #include "signorini/physics/mass.h"
 
-#include <deal.II/dofs/dof_tools.h>
-
 #include <fmt/core.h>
 #include <fmt/ranges.h>
 
@@ -34,7 +32,7 @@ QuasiStaticSolver<dim>::QuasiStaticSolver(const Discretization<dim> &the_discret
       balance(the_discretization, supported_dofs, the_scene.n_bodies(), forces, surface_map, the_run_time),
       regularization(the_discretization.make_vector())
 {
-  const unsigned int n_dofs = discretization->dof_handler.n_dofs();
+  const unsigned int n_dofs = discretization->owned_dofs.size();
   const bool is_direct = parameters.linear_solver == QuasiStaticParameters::LinearSolver::automatic
                              ? n_dofs <= (dim == 2 ? max_n_dofs_direct_2d : max_n_dofs_direct_3d)
                              : parameters.linear_solver == QuasiStaticParameters::LinearSolver::direct;
@@ -69,7 +67,8 @@ bool QuasiStaticSolver<dim>::make_constraints(double old_time, double time)
 {
   bool do_supports_move = false;
   constraints.reinit(map ? map->relevant_dofs() : discretization->relevant_dofs);
-  dealii::DoFTools::make_hanging_node_constraints(discretization->dof_handler, constraints);
+  constraints.merge(discretization->hanging_constraints,
+                    dealii::AffineConstraints<double>::no_conflicts_allowed, true);
   if (map)
     map->add_remote_hanging_constraints(constraints);
   for (const auto &entry : supports->entries())
@@ -95,9 +94,7 @@ void QuasiStaticSolver<dim>::rebuild_matrix()
   dealii::TrilinosWrappers::SparsityPattern pattern(
       discretization->owned_dofs, discretization->owned_dofs,
       map ? map->relevant_dofs() : discretization->relevant_dofs, discretization->communicator());
-  dealii::DoFTools::make_sparsity_pattern(
-      discretization->dof_handler, pattern, constraints, false,
-      dealii::Utilities::MPI::this_mpi_process(discretization->communicator()));
+  discretization->add_couplings(constraints, pattern);
   for (const auto &term : balance.terms())
     term->add_couplings(constraints, pattern);
   for (const dealii::types::global_dof_index dof : discretization->unused_dofs)

@@ -8,8 +8,6 @@
 
 #include <gtest/gtest.h>
 
-#include <deal.II/dofs/dof_tools.h>
-
 #include <functional>
 #include <random>
 
@@ -217,14 +215,15 @@ Eigen::MatrixXd assemble_tangent(BuiltScene<dim> &built, const std::vector<Force
 {
   const Discretization<dim> &discretization = built.discretization;
   dealii::AffineConstraints<double> constraints(built.map.relevant_dofs());
-  dealii::DoFTools::make_hanging_node_constraints(discretization.dof_handler, constraints);
+  constraints.merge(discretization.hanging_constraints,
+                    dealii::AffineConstraints<double>::no_conflicts_allowed, true);
   constraints.close();
 
   TangentSystem system;
   system.constraints = &constraints;
   dealii::TrilinosWrappers::SparsityPattern pattern(discretization.owned_dofs, discretization.owned_dofs,
                                                     built.map.relevant_dofs(), MPI_COMM_WORLD);
-  dealii::DoFTools::make_sparsity_pattern(discretization.dof_handler, pattern, constraints, false);
+  discretization.add_couplings(constraints, pattern);
   for (const ForceTerm *term : terms)
     term->add_couplings(constraints, pattern);
   pattern.compress();

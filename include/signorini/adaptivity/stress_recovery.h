@@ -27,16 +27,24 @@ public:
   /// Recovered stresses at the nodes of an own cell, [node] [Pa].
   std::vector<Eigen::Matrix3d> nodal_stresses(unsigned int cell) const;
 
-  /// The interpolation of nodal values at a quadrature point of a cell.
-  Eigen::Matrix3d interpolate(const std::vector<Eigen::Matrix3d> &nodal, unsigned int point) const;
+  /// The interpolation of nodal values at a quadrature point of an own cell.
+  Eigen::Matrix3d interpolate(unsigned int cell, const std::vector<Eigen::Matrix3d> &nodal,
+                              unsigned int point) const;
 
 private:
-  void fit_cells();
-  void tabulate_shape_functions();
+  /// What all cells of one kind have in common.
+  struct CellFit
+  {
+    unsigned int first_cell;
+    Eigen::MatrixXd fit;          ///< [node][point]: values at the nodes of the fitted polynomial
+    Eigen::MatrixXd shape_values; ///< [node][point]
+  };
+
+  static CellFit fit_cells(const MeshPart<dim> &part);
+  const CellFit &fit_of(unsigned int cell) const;
 
   const Discretization<dim> *discretization;
-  Eigen::MatrixXd fit;             ///< [node][point]: values at the nodes of the fitted polynomial
-  Eigen::MatrixXd shape_values;    ///< [node][point]
+  std::vector<CellFit> fits;       ///< one a part of the mesh
   std::array<Vector, 2> recovered; ///< the stress's independent components, dim each a node [Pa]
 };
 } // namespace signorini

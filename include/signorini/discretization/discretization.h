@@ -3,13 +3,12 @@
 
 #include "signorini/base/types.h"
 #include "signorini/discretization/cell_table.h"
+#include "signorini/discretization/hexahedral_part.h"
+#include "signorini/discretization/tetrahedral_part.h"
 #include "signorini/parameters/parameters.h"
 
-#include <deal.II/distributed/tria.h>
-#include <deal.II/dofs/dof_handler.h>
-#include <deal.II/fe/fe_system.h>
-#include <deal.II/fe/mapping_q_cache.h>
 #include <deal.II/lac/affine_constraints.h>
+#include <deal.II/lac/trilinos_sparsity_pattern.h>
 
 #include <array>
 #include <functional>
@@ -33,25 +32,26 @@ struct OwnedNode
   unsigned int body = 0;
 };
 
-/// Mesh, elements, degrees of freedom and hanging nodes of all bodies of a scene.
+/// Meshes, elements, degrees of freedom and hanging nodes of all bodies of a scene. Own cells are numbered
+/// part by part, in the order of deal.II's active cells, hexahedra first.
 template <int dim>
 class Discretization
 {
 public:
   Discretization(const Parameters &parameters, const MPI_Comm &communicator);
 
-  /// Refines and coarsens the mesh by the flags of its cells, numbers everything anew and carries `values`
-  /// over by interpolation (collective). Whatever was made from this object before is void. New cells stay on
+  /// Refines and coarsens the hexahedra by their flags, numbers everything anew and carries `values` over by
+  /// interpolation (collective). Whatever was made from this object before is void. New cells stay on
   /// the rank that had those they came from.
   void adapt(const std::vector<Vector *> &values);
 
   /// Largest sum of `weights`, one for each own cell, of any rank over the mean of all ranks (collective).
   double imbalance(const std::vector<unsigned int> &weights) const;
 
-  /// Shares the cells out among the ranks anew, so that each has about the same sum of `weights`, positive
-  /// ones of its own cells, and carries `values` over as they are (collective). Does nothing where no rank
-  /// has more than 1.1 of the mean. Returns whether it did; then whatever was made from this object before
-  /// is void.
+  /// Shares the hexahedra out among the ranks anew, so that each has about the same sum of `weights`,
+  /// positive ones of its own cells, and carries `values` over as they are (collective). Does nothing where
+  /// no rank has more than 1.1 of the mean. Returns whether it did; then whatever was made from this object
+  /// before is void.
   bool balance(const std::vector<unsigned int> &weights, const std::vector<Vector *> &values);
 
   /// A zero vector with ghost entries for all that this rank's cells need.
@@ -64,10 +64,25 @@ public:
   /// freedom: the transpose of distribute().
   void collect(Vector &forces) const;
 
-  std::unique_ptr<dealii::parallel::distributed::Triangulation<dim>> mesh;
-  dealii::FESystem<dim> element;
-  dealii::MappingQCache<dim> mapping; ///< hanging nodes between their masters, also on curved boundaries
-  dealii::DoFHandler<dim> dof_handler;
+  /// Calls `visit(part, cell, own_cell)` for every own cell.
+  template <typename Visit>
+  void for_each_own_cell(const Visit &visit) const
+  {
+    unsigned int own_cell = 0;
+    for (MeshPart<dim> *part : parts)
+      for (const auto &cell : part->dof_handler.active_cell_iterators())
+        if (cell->is_locally_owned())
+          visit(*part, cell, own_cell++);
+  }
+
+  const unsigned int degree;                        ///< of all elements
+  std::unique_ptr<HexahedralPart<dim>> hexahedra;   ///< null in scenes without
+  std::unique_ptr<TetrahedralPart<dim>> tetrahedra; ///< null in scenes without
+  std::vector<MeshPart<dim> *> parts;               ///< those that there are
+
+  /// Undeformed positions of the nodes, as a vector of degrees of freedom; hanging ones between their
+  /// masters, also on curved boundaries [m].
+  Vector node_positions;
 
   dealii::IndexSet owned_dofs;
   dealii::IndexSet relevant_dofs; ///< includes the masters of all hanging nodes
@@ -80,8 +95,15 @@ public:
   /// of meshes with hanging nodes. They mean nothing and must not reach a linear solver.
   std::vector<dealii::types::global_dof_index> unused_dofs;
 
+  /// Adds the entries of a matrix that couple the degrees of freedom of an own cell.
+  void add_couplings(const dealii::AffineConstraints<double> &constraints,
+                     dealii::TrilinosWrappers::SparsityPattern &pattern) const;
+
   /// Degrees of freedom of all ranks that have a cell.
   dealii::types::global_dof_index n_dofs() const;
+
+  /// Cells of all ranks.
+  dealii::types::global_cell_index n_cells() const;
 
   const MPI_Comm &communicator() const { return mpi_communicator; }
 
@@ -90,8 +112,11 @@ private:
   /// Numbers everything anew after `change` of the mesh and carries `values` over.
   void change_mesh(const std::vector<Vector *> &values, const std::function<void()> &change);
   void number_dofs();
-  void close_mapping();
+  void set_numbering();
+  void number_hanging_dofs();
+  void place_nodes();
   void fill_cell_table();
+  void add_cells(MeshPart<dim> &part);
   void check_cells() const;
   void collect_owned_nodes();
 

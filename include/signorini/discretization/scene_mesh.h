@@ -2,6 +2,7 @@
 #pragma once
 
 #include "signorini/discretization/placement.h"
+#include "signorini/discretization/tetrahedral_part.h"
 #include "signorini/parameters/parameters.h"
 
 #include <deal.II/distributed/tria.h>
@@ -38,10 +39,16 @@ private:
   std::vector<Placement<dim>> placements;
 };
 
-/// All bodies of a scene in one distributed mesh. Bodies share no vertex, touching or not; a cell's material
-/// id is the index of its body. Curved boundaries stay on their manifolds under refinement; grading is done.
-/// Every rank has the same number of cells; later refinement moves none of them.
+/// All bodies of hexahedra of a scene in one distributed mesh, null if there are none. Bodies share no
+/// vertex, touching or not; a cell's material id is the index of its body. Curved boundaries stay on their
+/// manifolds under refinement; grading is done. Every rank has the same number of cells; later refinement
+/// moves none of them.
 template <int dim>
 std::unique_ptr<dealii::parallel::distributed::Triangulation<dim>>
 make_scene_mesh(const std::vector<BodyParameters> &bodies, const MPI_Comm &communicator);
+
+/// The meshes of all bodies of tetrahedra, where the bodies stand in the scene; curved edges for degree 2.
+template <int dim>
+std::vector<PlacedSimplexMesh> place_simplex_meshes(const std::vector<BodyParameters> &bodies,
+                                                    unsigned int degree);
 } // namespace signorini

@@ -7,7 +7,6 @@
 #include "signorini/solvers/scene_forces.h"
 
 #include <deal.II/dofs/dof_handler.h>
-#include <deal.II/fe/fe_q.h>
 
 #include <memory>
 #include <string>
@@ -37,21 +36,30 @@ public:
   void write(const State &state, const SceneForces<dim> &forces, const ErrorEstimate &estimate);
 
 private:
+  /// Scalar fields on one part of the mesh.
   struct ContactFields
   {
-    dealii::FE_Q<dim> element;
     dealii::DoFHandler<dim> dof_handler;
     std::vector<std::pair<unsigned int, dealii::types::global_dof_index>> owned; ///< surface node, scalar dof
     dealii::IndexSet relevant;
   };
 
+  /// By node of the surface.
+  struct NodalContact
+  {
+    std::vector<double> pressures; ///< [Pa]
+    std::vector<double> gaps;      ///< [m]
+  };
+
   void number_contact_fields();
-  std::pair<Vector, Vector> project_contact(const SceneForces<dim> &forces) const;
+  std::unique_ptr<ContactFields> number_contact_fields_of(const MeshPart<dim> &part) const;
+  NodalContact project_contact(const SceneForces<dim> &forces) const;
+  std::pair<Vector, Vector> spread(const NodalContact &nodal, const ContactFields &fields) const;
 
   const Discretization<dim> *discretization = nullptr;
   const SurfaceMap<dim> *map = nullptr;
   std::string directory;
-  std::unique_ptr<ContactFields> contact;
+  std::vector<std::unique_ptr<ContactFields>> contacts; ///< one a part of the mesh; none without contact
   std::vector<std::pair<double, std::string>> records;
 };
 } // namespace signorini

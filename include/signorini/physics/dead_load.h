@@ -7,12 +7,19 @@
 
 namespace signorini
 {
+/// How a body's weight is shared among its nodes.
+enum class WeightShares
+{
+  shape_integrals, ///< ∫N dV: as the virtual work of gravity has it
+  lumped_mass      ///< as the mass of explicit runs, so that all nodes fall alike
+};
+
 /// Weight and tractions: forces that do not depend on the displacement, only on time.
 template <int dim>
 class DeadLoad : public ForceTerm
 {
 public:
-  DeadLoad(const Scene<dim> &scene, const Discretization<dim> &discretization);
+  DeadLoad(const Scene<dim> &scene, const Discretization<dim> &discretization, WeightShares shares);
 
   void update(const State &state) override;
   /// −f·u: the work that the present forces could have done.
@@ -29,7 +36,10 @@ private:
     std::vector<unsigned int> components;
   };
 
+  void add_weight(WeightShares shares);
   void collect_points();
+  void collect_points_of(const MeshPart<dim> &part,
+                         const std::multimap<dealii::types::boundary_id, unsigned int> &loaded);
   void add_own_tractions(double time);
 
   const Scene<dim> *scene;

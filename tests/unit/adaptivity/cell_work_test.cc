@@ -37,7 +37,7 @@ struct Pillar
 
   void adapt(bool is_foot_refined)
   {
-    for (const auto &cell : built.discretization.mesh->active_cell_iterators())
+    for (const auto &cell : built.discretization.hexahedra->mesh.active_cell_iterators())
       if (cell->is_locally_owned() && is_foot_refined && cell->vertex(0)[dim - 1] < 1e-6)
         cell->set_refine_flag();
       else if (cell->is_locally_owned() && !is_foot_refined && cell->level() > 0)
@@ -82,7 +82,7 @@ TYPED_TEST(MotionOnRanks, WorkOfContactIsSharedOut)
   constexpr int dim = TypeParam::dim;
   Pillar<dim> pillar(TypeParam::degree);
   Discretization<dim> &discretization = pillar.built.discretization;
-  const auto n_cells = discretization.mesh->n_global_active_cells();
+  const auto n_cells = discretization.n_cells();
   pillar.built.state.displacement = pillar.built.random_vector(.001, 3);
   pillar.built.state.velocity = pillar.built.random_vector(1., 4);
   pillar.adapt(true);
@@ -103,6 +103,6 @@ TYPED_TEST(MotionOnRanks, WorkOfContactIsSharedOut)
   EXPECT_FALSE(discretization.balance(new_work, {&pillar.built.state.displacement})) << "it is balanced";
 
   pillar.adapt(false);
-  EXPECT_EQ(discretization.mesh->n_global_active_cells(), n_cells) << "children of one cell were parted";
+  EXPECT_EQ(discretization.n_cells(), n_cells) << "children of one cell were parted";
 }
 } // namespace

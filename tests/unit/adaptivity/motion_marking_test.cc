@@ -60,7 +60,7 @@ struct Approach
   std::array<unsigned int, 2> extra_levels() const
   {
     std::array<unsigned int, 2> most{};
-    for (const auto &cell : built.discretization.mesh->active_cell_iterators())
+    for (const auto &cell : built.discretization.hexahedra->mesh.active_cell_iterators())
       if (cell->is_locally_owned())
         most[cell->material_id()] =
             std::max(most[cell->material_id()], cell->level() - levels.level_at(cell));
@@ -78,14 +78,14 @@ TYPED_TEST(MotionMarking, ContactThatIsComingIsRefinedAndContactThatIsGoneIsNot)
 {
   constexpr int dim = TypeParam::dim;
   Approach<dim> approach(2.);
-  const auto n_of_file = approach.built.discretization.mesh->n_global_active_cells();
+  const auto n_of_file = approach.built.discretization.n_cells();
   EXPECT_EQ(approach.adapt(0., OtherCells::coarser), 0u) << "a ball at rest meets nothing";
   EXPECT_EQ(approach.adapt(-1.95, OtherCells::coarser), 2u) << "level by level";
   EXPECT_EQ(approach.extra_levels(), (std::array<unsigned int, 2>{2, 2}));
-  EXPECT_LT(approach.built.discretization.mesh->n_global_active_cells(), (1u << dim) * n_of_file);
+  EXPECT_LT(approach.built.discretization.n_cells(), (1u << dim) * n_of_file);
   EXPECT_EQ(approach.adapt(0., OtherCells::as_they_are), 0u);
   EXPECT_EQ(approach.adapt(0., OtherCells::coarser), 2u);
-  EXPECT_EQ(approach.built.discretization.mesh->n_global_active_cells(), n_of_file)
+  EXPECT_EQ(approach.built.discretization.n_cells(), n_of_file)
       << "the mesh of the file, graded as it was";
 }
 } // namespace

@@ -64,7 +64,7 @@ TYPED_TEST(Discretizations, TouchingBodiesShareNoDofs)
     dofs[cells.bodies[cell]].insert(cells.cell_dofs(cell), cells.cell_dofs(cell) + cells.n_cell_dofs());
   EXPECT_EQ(dofs[0].size(), dim * std::pow(2 * TypeParam::degree + 1, dim));
   EXPECT_EQ(dofs[1].size(), dofs[0].size());
-  EXPECT_EQ(dofs[0].size() + dofs[1].size(), built.discretization.dof_handler.n_dofs());
+  EXPECT_EQ(dofs[0].size() + dofs[1].size(), built.discretization.owned_dofs.size());
 }
 
 TYPED_TEST(Discretizations, EveryNodeIsOwnedOnceByItsBody)
@@ -79,7 +79,7 @@ TYPED_TEST(Discretizations, EveryNodeIsOwnedOnceByItsBody)
     dofs.insert(node.dofs.begin(), node.dofs.end());
     EXPECT_EQ(node.body, node.position[0] > 3. ? 1u : 0u);
   }
-  EXPECT_EQ(dofs.size(), built.discretization.dof_handler.n_dofs());
+  EXPECT_EQ(dofs.size(), built.discretization.owned_dofs.size());
   EXPECT_EQ(dim * built.discretization.owned_nodes.size(), dofs.size());
 }
 

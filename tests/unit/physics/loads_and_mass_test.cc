@@ -73,7 +73,7 @@ TYPED_TEST(LoadsAndMass, MassOfADistortedMeshIsDensityTimesVolume)
 template <int dim>
 VectorAndMoment load_on(BuiltScene<dim> &built, double time = 0.)
 {
-  DeadLoad<dim> load(built.scene, built.discretization);
+  DeadLoad<dim> load(built.scene, built.discretization, WeightShares::lumped_mass);
   built.state.time = time;
   const Vector none = built.discretization.make_vector();
   return sum_over_nodes(built.discretization, none, built.force_of(load, none));
@@ -139,7 +139,7 @@ TYPED_TEST(LoadsAndMass, EnergyIsMinusForceTimesDisplacement)
   BodyParameters box = make_graded_cube();
   box.loads.push_back(make_traction("left", {{"3", "x+y", "5"}}));
   BuiltScene<dim> built({box}, TypeParam::degree, [](Parameters &p) { p.gravity = {1., -9., 4.}; });
-  DeadLoad<dim> load(built.scene, built.discretization);
+  DeadLoad<dim> load(built.scene, built.discretization, WeightShares::lumped_mass);
   const Vector u = built.random_vector(.1);
   const Vector force = built.force_of(load, u);
   EXPECT_NEAR(load.energy(), -(force * u), 1e-12);
