@@ -10,27 +10,50 @@
 
 namespace signorini
 {
-/// One element face that may touch something: a tensor-product Lagrange patch of degree 1 or 2.
+/// What a facet is in its local coordinates.
+enum class FacetType : unsigned char
+{
+  tensor_product, ///< over [0, 1]^(dim−1): a line in 2-D, a quadrilateral in 3-D
+  triangle        ///< over ξ_0, ξ_1 ≥ 0, ξ_0 + ξ_1 ≤ 1; 3-D only
+};
+
+/// A Lagrange element of degree 1 or 2.
 ///
-/// Node (i, j) of the patch, at the local point (i/degree, j/degree), has index i + (degree + 1) j. The nodes
-/// run so that the normal t_0 × t_1 (in 2-D: t_0 turned by −90°, (t_y, −t_x)) points out of the body.
+/// Node (i, j) of a tensor product, at the local point (i/degree, j/degree), has index i + (degree + 1) j. A
+/// triangle has its corners (0, 0), (1, 0), (0, 1) first, then the middles of the sides 0–1, 1–2, 2–0.
 template <int dim>
-struct Facet
+struct FacetElement
 {
   static constexpr unsigned int max_n_nodes = (dim == 2 ? 3 : 9);
 
-  std::array<unsigned int, max_n_nodes>
-      nodes{};                 ///< indices into the surface's nodes; the first n_nodes count
-  unsigned int degree = 1;     ///< polynomial degree, 1 or 2
+  unsigned int degree = 1; ///< polynomial degree, 1 or 2
+  FacetType type = FacetType::tensor_product;
+
+  unsigned int n_nodes() const
+  {
+    const unsigned int n_line = degree + 1;
+    if (dim == 2)
+      return n_line;
+    return type == FacetType::triangle ? n_line * (n_line + 1) / 2 : n_line * n_line;
+  }
+};
+
+/// One element face that may touch something.
+///
+/// The nodes run so that the normal t_0 × t_1 (in 2-D: t_0 turned by −90°, (t_y, −t_x)) points out of the
+/// body.
+template <int dim>
+struct Facet : FacetElement<dim>
+{
+  bool owned = true; ///< whether this rank integrates over it
+  std::array<unsigned int, FacetElement<dim>::max_n_nodes>
+      nodes{};                 ///< indices into the surface's nodes; the first n_nodes() count
   unsigned int body = 0;       ///< index of the body it belongs to
-  bool owned = true;           ///< whether this rank integrates over it
   double layer_thickness = 0.; ///< h: size of the element behind the face, along its normal [m]
   double room = 0.; ///< depth down to which the nearest way out leads through this face: h, or h/2 where the
                     ///< body is one element thick [m]
   double youngs_modulus = 0.; ///< E of that element [Pa]
   double density = 0.;        ///< ρ of that element [kg/m³]
-
-  unsigned int n_nodes() const { return dim == 2 ? degree + 1 : (degree + 1) * (degree + 1); }
 };
 
 /// Pressures at the nodes of every facet, [facet][node of the facet] [Pa]; a node's may differ from facet to
