@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
-#include "signorini/discretization/contact_surface.h"
+#include "signorini/contact/geometry/facet_shape.h"
 
 #include <Eigen/Geometry>
 
+#include <cmath>
 #include <map>
 #include <random>
 
@@ -13,7 +14,8 @@ namespace signorini::test
 template <int dim>
 using Positions = std::vector<SpatialVector<dim>>;
 
-/// A box of n × n (× n) elements and its material, as seen from outside.
+/// A box of n × n (× n) elements and its material, as seen from outside; every side of an element is one
+/// quadrilateral or two triangles.
 template <int dim>
 struct BoxBody
 {
@@ -21,6 +23,7 @@ struct BoxBody
   SpatialVector<dim> size = SpatialVector<dim>::Ones();
   unsigned int n_faces = 2; ///< along every edge
   unsigned int degree = 1;
+  FacetType type = FacetType::tensor_product;
   double youngs_modulus = 1e3;
   double density = 10.;
 };
@@ -62,15 +65,21 @@ private:
   {
     for (unsigned int j = 0; j < (dim == 3 ? box.n_faces : 1); ++j)
       for (unsigned int i = 0; i < box.n_faces; ++i)
-        add_facet(box, axis, side, i, j);
+        for (unsigned int half = 0; half < (box.type == FacetType::triangle ? 2 : 1); ++half)
+          add_facet(box, axis, side, {i, j, half});
   }
 
-  void add_facet(const BoxBody<dim> &box, unsigned int axis, unsigned int side, unsigned int column,
-                 unsigned int row)
+  struct Place
+  {
+    unsigned int column, row, half;
+  };
+
+  void add_facet(const BoxBody<dim> &box, unsigned int axis, unsigned int side, const Place &place)
   {
     const unsigned int p = box.degree;
     Facet<dim> facet;
     facet.degree = p;
+    facet.type = box.type;
     facet.body = surface.n_bodies;
     facet.layer_thickness = box.size[axis] / box.n_faces;
     facet.room = (box.n_faces == 1 ? .5 : 1.) * facet.layer_thickness;
@@ -79,20 +88,22 @@ private:
     const bool reversed = dim == 2 ? (axis == 0) != (side == 1) : side == 0;
     for (unsigned int a = 0; a < facet.n_nodes(); ++a)
     {
-      unsigned int i = a % (p + 1);
-      unsigned int j = a / (p + 1);
+      const LocalPoint<dim> xi = contact::node_coordinates(facet, a);
+      std::array<unsigned int, 2> steps{{0, 0}};
+      for (unsigned int d = 0; d < dim - 1; ++d)
+        steps[d] = static_cast<unsigned int>(std::lround(p * (place.half == 0 ? xi[d] : 1. - xi[d])));
       if (reversed)
       {
         if (dim == 2)
-          i = p - i;
+          steps[0] = p - steps[0];
         else
-          std::swap(i, j);
+          std::swap(steps[0], steps[1]);
       }
       Lattice lattice;
       lattice[axis] = side * box.n_faces * p;
-      lattice[(axis + 1) % dim] = column * p + i;
+      lattice[(axis + 1) % dim] = place.column * p + steps[0];
       if (dim == 3)
-        lattice[(axis + 2) % dim] = row * p + j;
+        lattice[(axis + 2) % dim] = place.row * p + steps[1];
       facet.nodes[a] = node_at(box, lattice);
     }
     surface.facets.push_back(facet);

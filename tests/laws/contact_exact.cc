@@ -98,8 +98,69 @@ TYPED_TEST(ContactExact, UnlikeBoxesWithFaceSegments)
 {
   constexpr int dim = TypeParam::value;
   this->settings.integration = Integration::face_segments;
-  this->press(.5, 3, 2);
-  expect_uniform_pressure(this->evaluate(), this->stiffness() * this->overlap, dim == 2 ? .5 : .25);
+  for (const FacetType upper_type : {FacetType::tensor_product, FacetType::triangle})
+  {
+    if (dim == 3)
+      this->upper.type = upper_type;
+    this->press(.5, 3, 2);
+    expect_uniform_pressure(this->evaluate(), this->stiffness() * this->overlap, dim == 2 ? .5 : .25);
+    this->upper = BoxBody<dim>();
+  }
+}
+
+/// ∫ N_a of a flat facet of area 1 over it.
+template <int dim>
+double exact_share(const FacetElement<dim> &element, unsigned int a)
+{
+  if (element.type == FacetType::triangle)
+    return element.degree == 1 || a >= 3 ? 1. / 3. : 0.;
+  const unsigned int n_line = element.degree + 1;
+  const auto on_line = [&](unsigned int i) { return element.degree == 1 ? .5 : i == 1 ? 4. / 6. : 1. / 6.; };
+  return on_line(a % n_line) * (dim == 3 ? on_line(a / n_line) : 1.);
+}
+
+/// Meshes that do not match, of one kind or two, under a uniform overlap: every node bears what a uniform
+/// pressure k_A d on its facets gives it.
+TYPED_TEST(ContactExact, FaceSegmentsGiveNodalForcesOfUniformPressure)
+{
+  constexpr int dim = TypeParam::value;
+  this->settings.integration = Integration::face_segments;
+  std::vector<FacetType> types{FacetType::tensor_product};
+  if (dim == 3)
+    types.push_back(FacetType::triangle);
+  for (const FacetType lower_type : types)
+    for (const FacetType upper_type : types)
+      for (unsigned int degree : {1u, 2u})
+      {
+        this->upper = this->lower = BoxBody<dim>();
+        this->lower.type = lower_type;
+        this->upper.type = upper_type;
+        this->lower.degree = this->upper.degree = degree;
+        this->press(1., 3, 2);
+        const auto potential = this->evaluate();
+        const double pressure = this->stiffness() * this->overlap;
+        expect_uniform_pressure(potential, pressure, 1.);
+
+        Positions<dim> expected(this->surface.n_nodes(), SpatialVector<dim>::Zero());
+        const auto &x = this->surface.reference_positions;
+        for (const auto &facet : this->surface.facets)
+        {
+          const bool is_upper = facet.body == 1;
+          const auto nodes = gather_nodes(facet, x);
+          const auto is_on_face = [&](const auto &p)
+          { return p[dim - 1] == (is_upper ? 1. - this->overlap : 1.); };
+          if (!std::all_of(nodes.position.begin(), nodes.position.begin() + facet.n_nodes(), is_on_face))
+            continue;
+          const double n_faces = is_upper ? 2. : 3., n_parts = facet.type == FacetType::triangle ? 2. : 1.;
+          const double area = std::pow(1. / n_faces, dim - 1) / n_parts;
+          for (unsigned int a = 0; a < facet.n_nodes(); ++a)
+            expected[facet.nodes[a]][dim - 1] +=
+                (is_upper ? 1. : -1.) * pressure * area * exact_share(facet, a);
+        }
+        const auto difference = shifted<dim>(compute_forces(potential, x.size()), expected, -1.);
+        for (const auto &error : difference)
+          EXPECT_LT(error.norm(), 1e-12 * pressure);
+      }
 }
 
 TYPED_TEST(ContactExact, BoxOnPlane)

@@ -14,7 +14,8 @@ namespace
 {
 constexpr double pi = 3.14159265358979323846;
 
-/// Every law is checked on every scene: dimension × degree × target × integration.
+/// Every law is checked on every scene: dimension × degree × target × integration × multipliers, and on those
+/// of triangles.
 class ContactLaws : public testing::TestWithParam<Case>
 {
 protected:
@@ -37,6 +38,18 @@ std::vector<Case> make_cases()
         for (Integration integration : {Integration::face_quadrature, Integration::face_segments})
           for (Multipliers multipliers : {Multipliers::none, Multipliers::given})
             cases.push_back({dim, degree, target, integration, multipliers});
+  for (unsigned int degree : {1, 2})
+  {
+    const auto add = [&](Target target, Integration integration, Multipliers multipliers, Triangles triangles)
+    {
+      cases.push_back({3, degree, target, integration, multipliers, triangles});
+    };
+    for (Target target : {Target::body, Target::plane, Target::sphere})
+      add(target, Integration::face_quadrature, Multipliers::given, Triangles::both);
+    for (Triangles triangles : {Triangles::both, Triangles::upper, Triangles::lower})
+      for (Integration integration : {Integration::face_quadrature, Integration::face_segments})
+        add(Target::body, integration, Multipliers::none, triangles);
+  }
   return cases;
 }
 
@@ -110,7 +123,7 @@ TEST_P(ContactLaws, TangentIsTheDerivativeOfForces)
                 potential.evaluate(shifted<dim>(scene.positions, direction, t));
                 return Eigen::VectorXd(flatten<dim>(compute_forces(potential, n)));
               },
-              1e-6);
+              2e-7);
           const Eigen::VectorXd expected = -tangent * flatten<dim>(direction);
           EXPECT_LE((slope - expected).norm(), 1e-7 * expected.norm());
         }
@@ -238,6 +251,9 @@ TEST_P(ContactLaws, ClosedLoopDoesNoWork)
   const Case &c = GetParam();
   if (c.dim == 3 && c.degree == 2 && c.target == Target::body && c.integration == Integration::face_segments)
     GTEST_SKIP() << "passes, but takes a minute: its thousands of points cross thousands of kinks";
+  if (c.degree == 2 && c.target == Target::body &&
+      (c.triangles == Triangles::both || c.triangles == Triangles::lower))
+    GTEST_SKIP() << "passes, but takes long; that of triangles above has both kinds on both sides";
   on_scene(
       [](auto scene, auto dimension)
       {

@@ -24,6 +24,15 @@ enum class Multipliers
   given ///< random ones, about as large as the pressures of the overlap
 };
 
+/// Which of the two boxes have surfaces of triangles.
+enum class Triangles
+{
+  none,
+  both,
+  upper,
+  lower
+};
+
 struct Case
 {
   int dim;
@@ -31,14 +40,17 @@ struct Case
   Target target;
   contact::Integration integration;
   Multipliers multipliers = Multipliers::none;
+  Triangles triangles = Triangles::none;
 };
 
 inline std::ostream &operator<<(std::ostream &out, const Case &c)
 {
   const std::array<const char *, 3> targets{"Body", "Plane", "Sphere"};
+  const std::array<const char *, 4> triangles{"", "Triangles", "TrianglesAbove", "TrianglesBelow"};
   return out << "Dim" << c.dim << "Degree" << c.degree << targets[static_cast<std::size_t>(c.target)]
              << (c.integration == contact::Integration::face_quadrature ? "Quadrature" : "Segments")
-             << (c.multipliers == Multipliers::given ? "Multipliers" : "");
+             << (c.multipliers == Multipliers::given ? "Multipliers" : "")
+             << triangles[static_cast<std::size_t>(c.triangles)];
 }
 
 /// A bent box pressed a little into another bent box of other mesh and material, or into an obstacle.
@@ -60,12 +72,16 @@ struct PotentialScene
     BoxBody<dim> lower;
     lower.degree = c.degree;
     lower.n_faces = n_faces;
+    const auto is_of_triangles = [&](Triangles side)
+    { return c.triangles == Triangles::both || c.triangles == side; };
+    lower.type = is_of_triangles(Triangles::lower) ? FacetType::triangle : FacetType::tensor_product;
     if (c.target == Target::body)
     {
       builder.add(lower);
       moving_body = 1;
     }
     BoxBody<dim> upper = lower;
+    upper.type = is_of_triangles(Triangles::upper) ? FacetType::triangle : FacetType::tensor_product;
     upper.size *= .75;
     upper.corner = SpatialVector<dim>::Constant(.1371);
     upper.corner[dim - 1] = 1. - overlap;

@@ -36,6 +36,8 @@ struct FlyingBoxes
       box.corner = random.vector(dim == 2 ? 3. : 1.5);
       box.size = SpatialVector<dim>::Constant(random.number(.4, 1.));
       box.degree = degree;
+      if (dim == 3 && i % 2 == 1)
+        box.type = FacetType::triangle;
       builder.add(box);
     }
     surface = builder.surface;

@@ -17,12 +17,13 @@ bool every_body(unsigned int)
 }
 
 template <int dim>
-BoxBody<dim> make_box(const SpatialVector<dim> &corner, double size, unsigned int degree)
+BoxBody<dim> make_box(const SpatialVector<dim> &corner, double size, const FacetElement<dim> &element)
 {
   BoxBody<dim> box;
+  box.type = element.type;
   box.corner = corner;
   box.size = SpatialVector<dim>::Constant(size);
-  box.degree = degree;
+  box.degree = element.degree;
   box.n_faces = 3;
   return box;
 }
@@ -36,10 +37,10 @@ double depth_in_box(const BoxBody<dim> &box, const SpatialVector<dim> &x)
 
 /// Points in and around two boxes, one of which holds the other.
 template <int dim>
-void compare_with_boxes(unsigned int degree)
+void compare_with_boxes(const FacetElement<dim> &outer_element, const FacetElement<dim> &inner_element)
 {
-  const std::vector<BoxBody<dim>> boxes{make_box<dim>(SpatialVector<dim>::Zero(), 2., degree),
-                                        make_box<dim>(SpatialVector<dim>::Constant(.5), .7, degree)};
+  const std::vector<BoxBody<dim>> boxes{make_box<dim>(SpatialVector<dim>::Zero(), 2., outer_element),
+                                        make_box<dim>(SpatialVector<dim>::Constant(.5), .7, inner_element)};
   BoxSurfaceBuilder<dim> builder;
   for (const BoxBody<dim> &box : boxes)
     builder.add(box);
@@ -71,21 +72,26 @@ TEST(InteriorSearch, FindsDepthsInBoxes)
 {
   for (const unsigned int degree : {1u, 2u})
   {
-    compare_with_boxes<2>(degree);
-    compare_with_boxes<3>(degree);
+    compare_with_boxes<2>({degree}, {degree});
+    compare_with_boxes<3>({degree}, {degree});
+    compare_with_boxes<3>({degree, FacetType::triangle}, {degree});
+    compare_with_boxes<3>({degree}, {degree, FacetType::triangle});
   }
 }
 
 TEST(InteriorSearch, TakesNoPointOfTheSurfaceForAnInnerOne)
 {
-  BoxSurfaceBuilder<3> builder;
-  builder.add(make_box<3>(SpatialVector<3>::Zero(), 1., 1));
-  const auto &nodes = builder.surface.reference_positions;
-  const InteriorSearch<3> search(builder.surface, nodes);
-  for (const SpatialVector<3> &node : nodes)
+  for (const FacetType type : {FacetType::tensor_product, FacetType::triangle})
   {
-    const auto found = search.find_deepest(node, every_body);
-    EXPECT_LT(found ? found->depth : 0., 1e-14);
+    BoxSurfaceBuilder<3> builder;
+    builder.add(make_box<3>(SpatialVector<3>::Zero(), 1., {1, type}));
+    const auto &nodes = builder.surface.reference_positions;
+    const InteriorSearch<3> search(builder.surface, nodes);
+    for (const SpatialVector<3> &node : nodes)
+    {
+      const auto found = search.find_deepest(node, every_body);
+      EXPECT_LT(found ? found->depth : 0., 1e-14);
+    }
   }
 }
 } // namespace

@@ -13,7 +13,7 @@ using SpatialVector = Eigen::Matrix<double, dim, 1>;
 template <int dim>
 using SpatialTensor = Eigen::Matrix<double, dim, dim>;
 
-/// Local coordinates on a facet, each in [0, 1].
+/// Local coordinates on a facet.
 template <int dim>
 using LocalPoint = Eigen::Matrix<double, dim - 1, 1>;
 } // namespace signorini

@@ -5,7 +5,7 @@
 
 #include <deal.II/base/mpi.h>
 
-#include <Eigen/LU>
+#include <Eigen/Cholesky>
 
 #include <algorithm>
 #include <limits>
@@ -35,36 +35,45 @@ move_to(const SpatialVector<dim> &origin, const typename contact::ContactPotenti
     moved.push_back(obstacle->moved(-origin));
   return moved;
 }
+
 template <int dim>
 double undeformed_area(const Facet<dim> &facet, const ContactSurface<dim> &surface)
 {
   const auto nodes = contact::gather_nodes(facet, surface.reference_positions);
   double area = 0.;
-  for (const auto &point : contact::make_gauss_points<dim>(3))
+  for (const auto &point : contact::make_gauss_points<dim>(facet.type, 3))
     area += point.weight * contact::evaluate_facet_frame(nodes, point.xi).area_normal.norm();
   return area;
 }
 
+/// One number for each corner of a facet.
 template <int dim>
-constexpr int n_corners = 1 << (dim - 1);
+using Corners = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, 1 << (dim - 1), 1>;
 
 /// The (bi)linear functions of a facet, each 1 at one of its corners.
 template <int dim>
-Eigen::Matrix<double, n_corners<dim>, 1> corner_functions(const LocalPoint<dim> &xi)
+Corners<dim> corner_functions(const FacetType type, const LocalPoint<dim> &xi)
 {
-  const auto shape = contact::evaluate_facet_shape<dim>(1, xi);
-  return Eigen::Map<const Eigen::Matrix<double, n_corners<dim>, 1>>(shape.value.data());
+  FacetElement<dim> element;
+  element.type = type;
+  const auto shape = contact::evaluate_facet_shape(element, xi);
+  return Eigen::Map<const Corners<dim>>(shape.value.data(), shape.n_nodes);
 }
 
-/// Inverse of ∫ N Nᵀ dξ of these functions.
+/// The coefficients of these functions in the L2 projection of a function whose integrals with them are
+/// `moments`, over a facet of the given area.
 template <int dim>
-Eigen::Matrix<double, n_corners<dim>, n_corners<dim>> inverse_corner_mass()
+Corners<dim> project_on_corners(const FacetType type, const Corners<dim> &moments, const double area)
 {
-  Eigen::Matrix<double, n_corners<dim>, n_corners<dim>> mass;
-  mass.setZero();
-  for (const auto &point : contact::make_gauss_points<dim>(2))
-    mass += point.weight * corner_functions<dim>(point.xi) * corner_functions<dim>(point.xi).transpose();
-  return mass.inverse();
+  Eigen::MatrixXd mass = Eigen::MatrixXd::Zero(moments.size(), moments.size());
+  double measure = 0.;
+  for (const auto &point : contact::make_gauss_points<dim>(type, 2))
+  {
+    const Corners<dim> corners = corner_functions<dim>(type, point.xi);
+    mass += point.weight * corners * corners.transpose();
+    measure += point.weight;
+  }
+  return mass.llt().solve(moments) * measure / area;
 }
 } // namespace
 
@@ -168,7 +177,7 @@ std::vector<double> ContactForce<dim>::nodal_areas() const
     if (!known.emplace(sample.facet, xi).second)
       continue;
     const Facet<dim> &facet = map->surface().facets[sample.facet];
-    const auto shape = contact::evaluate_facet_shape<dim>(facet.degree, sample.xi);
+    const auto shape = contact::evaluate_facet_shape(facet, sample.xi);
     for (unsigned int i = 0; i < facet.n_nodes(); ++i)
       areas[facet.nodes[i]] += shape.value[i] * sample.full_area;
   }
@@ -241,22 +250,27 @@ template <int dim>
 NodalPressures<dim> ContactForce<dim>::facet_pressures() const
 {
   const ContactSurface<dim> &surface = map->surface();
-  using Corners = Eigen::Matrix<double, n_corners<dim>, 1>;
-  std::vector<Corners> moments(surface.facets.size(), Corners::Zero()); // ∫ p N dA
-  for (const contact::ContactSample<dim> &sample : potential.samples())
-    moments[sample.facet] += sample.full_area * sample.pressure * corner_functions<dim>(sample.xi);
-
-  const auto inverse_mass = inverse_corner_mass<dim>();
   NodalPressures<dim> pressures(surface.facets.size());
+  std::vector<Corners<dim>> moments(surface.facets.size()); // ∫ p N dA, of facets that have samples
+  for (const contact::ContactSample<dim> &sample : potential.samples())
+  {
+    const Corners<dim> corners = corner_functions<dim>(surface.facets[sample.facet].type, sample.xi);
+    Corners<dim> &sum = moments[sample.facet];
+    if (sum.size() == 0)
+      sum.setZero(corners.size());
+    sum += sample.full_area * sample.pressure * corners;
+  }
   for (unsigned int f = 0; f < surface.facets.size(); ++f)
   {
     const Facet<dim> &facet = surface.facets[f];
     pressures[f].fill(0.);
-    if (!facet.owned)
+    if (moments[f].size() == 0)
       continue;
-    const Corners corners = inverse_mass * moments[f] / undeformed_area(facet, surface);
+    const Corners<dim> corners =
+        project_on_corners<dim>(facet.type, moments[f], undeformed_area(facet, surface));
     for (unsigned int i = 0; i < facet.n_nodes(); ++i)
-      pressures[f][i] = std::max(0., corners.dot(corner_functions<dim>(contact::node_coordinates(facet, i))));
+      pressures[f][i] =
+          std::max(0., corners.dot(corner_functions<dim>(facet.type, contact::node_coordinates(facet, i))));
   }
   return pressures;
 }

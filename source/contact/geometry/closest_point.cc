@@ -12,9 +12,6 @@ namespace signorini::contact
 namespace
 {
 template <int dim>
-using LocalTensor = Eigen::Matrix<double, dim - 1, dim - 1>;
-
-template <int dim>
 bool is_positive_definite(const LocalTensor<dim> &h)
 {
   if constexpr (dim == 2)
@@ -23,24 +20,51 @@ bool is_positive_definite(const LocalTensor<dim> &h)
     return h(0, 0) > 0. && h(1, 1) > 0. && h(0, 0) * h(1, 1) * (1. - 1e-12) > h(0, 1) * h(0, 1);
 }
 
-/// A positive definite stand-in for an indefinite Hessian. Where the minimum is pressed against a side, the
-/// true curvature along that side, so that Newton's method still converges fast there.
-template <int dim>
-LocalTensor<dim> make_convex_hessian(const LocalJet<dim> &jet, const LocalPoint<dim> &s)
+/// A side of the local domain of a facet in 3-D in the coordinates s, counter-clockwise.
+struct Side
 {
-  LocalTensor<dim> convex = LocalTensor<dim>::Zero();
-  const double floor = 1e-3 * jet.hessian.diagonal().cwiseAbs().sum() + std::numeric_limits<double>::min();
-  for (int a = 0; a < dim - 1; ++a)
-    convex(a, a) = std::max(std::abs(jet.hessian(a, a)), floor);
-  if constexpr (dim == 3)
-    for (int a = 0; a < 2; ++a)
-      if (std::abs(s[a]) == 1. && s[a] * jet.gradient[a] < 0. && jet.hessian(1 - a, 1 - a) > 0.)
-        convex(1 - a, 1 - a) = jet.hessian(1 - a, 1 - a);
-  return convex;
+  LocalPoint<3> begin, along;
+
+  /// Positive on the inner side, and 0 for points that minimise_model() put on this one.
+  double height(const LocalPoint<3> &s) const { return cross(along, s - begin); }
+};
+
+template <FacetType type>
+Side make_side(const unsigned int k)
+{
+  const LocalPoint<3> begin = local_corner(type, k), end = local_corner(type, k + 1);
+  return {2. * begin - LocalPoint<3>::Ones(), 2. * (end - begin)};
 }
 
-/// Minimum of the quadratic model g·(t − s) + ½(t − s)·H(t − s) over t in the square, H positive definite.
-template <int dim>
+/// A positive definite stand-in for an indefinite Hessian. Where the minimum is pressed against a side, the
+/// true curvature along that side, so that Newton's method still converges fast there.
+template <int dim, FacetType type>
+LocalTensor<dim> make_convex_hessian(const LocalJet<dim> &jet, const LocalPoint<dim> &s)
+{
+  const double floor = 1e-3 * jet.hessian.diagonal().cwiseAbs().sum() + std::numeric_limits<double>::min();
+  if constexpr (dim == 2)
+    return LocalTensor<dim>(std::max(std::abs(jet.hessian(0, 0)), floor));
+  else
+  {
+    LocalPoint<dim> along = LocalPoint<dim>::UnitX();
+    bool is_pressed = false;
+    for (unsigned int k = 0; k < n_local_corners(type) && !is_pressed; ++k)
+    {
+      const Side side = make_side<type>(k);
+      is_pressed = side.height(s) == 0. && cross(side.along, jet.gradient) > 0.;
+      if (is_pressed)
+        along = side.along.normalized();
+    }
+    const LocalPoint<dim> across(-along[1], along[0]);
+    const double curvature = along.dot(jet.hessian * along);
+    return (is_pressed && curvature > 0. ? curvature : std::max(std::abs(curvature), floor)) * along *
+               along.transpose() +
+           std::max(std::abs(across.dot(jet.hessian * across)), floor) * across * across.transpose();
+  }
+}
+
+/// Minimum of the quadratic model g·(t − s) + ½(t − s)·H(t − s) over t in the domain, H positive definite.
+template <int dim, FacetType type>
 LocalPoint<dim> minimise_model(const LocalPoint<dim> &g, const LocalTensor<dim> &h, const LocalPoint<dim> &s)
 {
   if constexpr (dim == 2)
@@ -50,35 +74,35 @@ LocalPoint<dim> minimise_model(const LocalPoint<dim> &g, const LocalTensor<dim> 
     const double determinant = h(0, 0) * h(1, 1) - h(0, 1) * h(0, 1);
     const LocalPoint<dim> inner =
         s - LocalPoint<dim>(h(1, 1) * g[0] - h(0, 1) * g[1], h(0, 0) * g[1] - h(0, 1) * g[0]) / determinant;
-    if (std::abs(inner[0]) <= 1. && std::abs(inner[1]) <= 1.)
-      return inner;
 
-    // The model falls from its minimum over the square straight towards `inner`, so that minimum lies on a
+    // The model falls from its minimum over the domain straight towards `inner`, so that minimum lies on a
     // side that `inner` is beyond of.
-    LocalPoint<dim> best = s;
+    LocalPoint<dim> best = inner;
     double best_value = std::numeric_limits<double>::max();
-    for (int a = 0; a < 2; ++a)
-      if (std::abs(inner[a]) > 1.)
+    for (unsigned int k = 0; k < n_local_corners(type); ++k)
+    {
+      const Side side = make_side<type>(k);
+      if (side.height(inner) >= 0.)
+        continue;
+      const LocalPoint<dim> h_along = h * side.along;
+      const double slope = g.dot(side.along) + h_along.dot(side.begin - s);
+      const LocalPoint<dim> t =
+          side.begin + std::clamp(-slope / side.along.dot(h_along), 0., 1.) * side.along;
+      const LocalPoint<dim> p = t - s;
+      const double value = g.dot(p) + 0.5 * p.dot(h * p);
+      if (value < best_value)
       {
-        const int b = 1 - a;
-        LocalPoint<dim> t;
-        t[a] = std::copysign(1., inner[a]);
-        t[b] = std::clamp(s[b] - (g[b] + h(a, b) * (t[a] - s[a])) / h(b, b), -1., 1.);
-        const LocalPoint<dim> p = t - s;
-        const double value = g.dot(p) + 0.5 * p.dot(h * p);
-        if (value < best_value)
-        {
-          best_value = value;
-          best = t;
-        }
+        best_value = value;
+        best = t;
       }
+    }
     return best;
   }
 }
 
-/// Newton's method on the square from `s`: each step goes to the exact minimum of the quadratic model over
-/// the square, which finds the active sides at once. A step p leaves an error of about `contraction`·|p|².
-template <int dim, int degree>
+/// Newton's method on the domain from `s`: each step goes to the exact minimum of the quadratic model over
+/// the domain, which finds the active sides at once. A step p leaves an error of about `contraction`·|p|².
+template <int dim, FacetType type, int degree>
 LocalPoint<dim> descend(const SquarePolynomial<double, dim - 1, degree> &polynomial, LocalPoint<dim> s,
                         const double contraction)
 {
@@ -91,8 +115,8 @@ LocalPoint<dim> descend(const SquarePolynomial<double, dim - 1, degree> &polynom
   for (unsigned int step = 0; step < max_n_steps; ++step)
   {
     if (!is_positive_definite<dim>(jet.hessian))
-      jet.hessian = make_convex_hessian(jet, s);
-    const LocalPoint<dim> target = minimise_model<dim>(jet.gradient, jet.hessian, s), p = target - s;
+      jet.hessian = make_convex_hessian<dim, type>(jet, s);
+    const LocalPoint<dim> target = minimise_model<dim, type>(jet.gradient, jet.hessian, s), p = target - s;
     const double length = p.template lpNorm<Eigen::Infinity>(), slope = jet.gradient.dot(p);
     if (contraction * length * length < 1e-18)
       return target;
@@ -173,7 +197,7 @@ double bound_tangent_plane(const SquarePolynomial<double, n_directions, degree> 
 constexpr double careful = 1e6; ///< a contraction no polynomial is expected to exceed
 
 /// Looks for the lowest of several minima of the distance to one facet.
-template <int dim, int degree>
+template <int dim, FacetType type, int degree>
 class GlobalSearch
 {
 public:
@@ -181,7 +205,7 @@ public:
       : patch(facet), polynomial(squared_distance)
   {
     descend_from(LocalPoint<dim>::Zero());
-    search_part(polynomial, LocalPoint<dim>::Zero(), 1.);
+    search_part<type>(polynomial, LocalPoint<dim>::Zero(), 1.);
   }
 
   const LocalPoint<dim> &place() const { return best; }
@@ -189,7 +213,7 @@ public:
 private:
   const Patch<dim, degree> &patch;
   const DistancePolynomial<dim, degree> &polynomial;
-  LocalPoint<dim> best; ///< always a minimum over a neighbourhood in the whole square
+  LocalPoint<dim> best; ///< always a minimum over a neighbourhood in the whole domain
   double best_value = std::numeric_limits<double>::max();
 
   double evaluate(const LocalPoint<dim> &s) const
@@ -199,19 +223,24 @@ private:
 
   void descend_from(const LocalPoint<dim> &start)
   {
-    best = descend<dim, 2 * degree>(polynomial, start, careful);
+    best = descend<dim, type, 2 * degree>(polynomial, start, careful);
     best_value = evaluate(best);
   }
 
+  template <FacetType part_type>
   void search_part(const DistancePolynomial<dim, degree> &part, const LocalPoint<dim> &middle,
                    double half_width);
+  template <FacetType part_type>
+  void search_children(const DistancePolynomial<dim, degree> &part, const LocalPoint<dim> &middle,
+                       double half_width);
 };
 
-/// Halves the part of the square with the given middle and half width until the function is convex there,
-/// then descends, unless the part is surely not low enough.
-template <int dim, int degree>
-void GlobalSearch<dim, degree>::search_part(const DistancePolynomial<dim, degree> &part,
-                                            const LocalPoint<dim> &middle, const double half_width)
+/// Halves the part of the domain in the square with the given middle and half width until the function is
+/// convex there, then descends, unless the part is surely not low enough.
+template <int dim, FacetType type, int degree>
+template <FacetType part_type>
+void GlobalSearch<dim, type, degree>::search_part(const DistancePolynomial<dim, degree> &part,
+                                                  const LocalPoint<dim> &middle, const double half_width)
 {
   constexpr double smallest_half_width = 1. / 16.;
   if (bound_value(part) >= best_value)
@@ -225,42 +254,56 @@ void GlobalSearch<dim, degree>::search_part(const DistancePolynomial<dim, degree
   if (is_convex || half_width <= smallest_half_width)
   {
     const LocalPoint<dim> found =
-        middle + half_width * descend<dim, 2 * degree>(part, LocalPoint<dim>::Zero(),
-                                                       is_convex ? contraction : careful);
+        middle + half_width * descend<dim, part_type, 2 * degree>(part, LocalPoint<dim>::Zero(),
+                                                                  is_convex ? contraction : careful);
     if (evaluate(found) < best_value)
       descend_from(found);
     return;
   }
+  search_children<part_type>(part, middle, half_width);
+}
+
+/// A triangle is half of its square: one of the square's quarters is whole, two are halves, the last is
+/// beyond.
+template <int dim, FacetType type, int degree>
+template <FacetType part_type>
+void GlobalSearch<dim, type, degree>::search_children(const DistancePolynomial<dim, degree> &part,
+                                                      const LocalPoint<dim> &middle, const double half_width)
+{
   for (int child = 0; child < (1 << (dim - 1)); ++child)
   {
     LocalPoint<dim> offset;
     for (int a = 0; a < dim - 1; ++a)
       offset[a] = ((child >> a) & 1) ? 0.5 : -0.5;
-    search_part(make_part<dim, 2 * degree>(part, offset), middle + half_width * offset, 0.5 * half_width);
+    const LocalPoint<dim> child_middle = middle + half_width * offset;
+    if (part_type == FacetType::tensor_product || child == 0)
+      search_part<FacetType::tensor_product>(make_part<dim, 2 * degree>(part, offset), child_middle,
+                                             0.5 * half_width);
+    else if (child < 3)
+      search_part<part_type>(make_part<dim, 2 * degree>(part, offset), child_middle, 0.5 * half_width);
   }
 }
 
-template <int dim, int degree>
+template <int dim, FacetType type, int degree>
 ClosestPoint<dim> find_on_facet(const FacetNodes<dim> &nodes, const SpatialVector<dim> &x)
 {
-  const Patch<dim, degree> patch = make_patch<dim, degree>(nodes, x);
+  const Patch<dim, degree> patch = make_patch<dim, type, degree>(nodes, x);
   const auto polynomial = make_distance_polynomial<dim, degree>(patch);
   const double contraction = bound_contraction<dim, 2 * degree>(polynomial);
   LocalPoint<dim> s = LocalPoint<dim>::Zero();
   if (contraction >= 0.)
-    s = descend<dim, 2 * degree>(polynomial, s, contraction);
+    s = descend<dim, type, 2 * degree>(polynomial, s, contraction);
   else
-    s = GlobalSearch<dim, degree>(patch, polynomial).place();
+    s = GlobalSearch<dim, type, degree>(patch, polynomial).place();
 
   const SpatialVector<dim> r = evaluate_patch<dim, degree>(patch, s);
   ClosestPoint<dim> closest;
   closest.position = x + r;
   closest.distance = r.norm();
-  for (int a = 0; a < dim - 1; ++a)
-  {
-    closest.xi[a] = 0.5 + 0.5 * s[a];
-    closest.free[a] = (closest.xi[a] > 0. && closest.xi[a] < 1.);
-  }
+  closest.xi = 0.5 * (LocalPoint<dim>::Ones() + s);
+  if constexpr (type == FacetType::triangle)
+    if (s.sum() >= 0.)
+      closest.xi[1] = 1. - closest.xi[0];
   return closest;
 }
 } // namespace
@@ -268,7 +311,12 @@ ClosestPoint<dim> find_on_facet(const FacetNodes<dim> &nodes, const SpatialVecto
 template <int dim>
 ClosestPoint<dim> find_closest_point(const FacetNodes<dim> &nodes, const SpatialVector<dim> &x)
 {
-  return nodes.degree == 1 ? find_on_facet<dim, 1>(nodes, x) : find_on_facet<dim, 2>(nodes, x);
+  if constexpr (dim == 3)
+    if (nodes.type == FacetType::triangle)
+      return nodes.degree == 1 ? find_on_facet<dim, FacetType::triangle, 1>(nodes, x)
+                               : find_on_facet<dim, FacetType::triangle, 2>(nodes, x);
+  return nodes.degree == 1 ? find_on_facet<dim, FacetType::tensor_product, 1>(nodes, x)
+                           : find_on_facet<dim, FacetType::tensor_product, 2>(nodes, x);
 }
 
 template ClosestPoint<2> find_closest_point(const FacetNodes<2> &, const SpatialVector<2> &);

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "signorini/contact/geometry/depth.h"
 
+#include "signorini/contact/geometry/local_domain.h"
+
 #include <Eigen/Geometry>
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -26,28 +27,18 @@ struct Box
 };
 
 /// A box that surely holds the facet. A facet of degree 2 may bulge out of the box of its nodes, by no more
-/// than the Lebesgue constant 5/4 a direction allows.
+/// than the Lebesgue constant allows.
 template <int dim>
 Box<dim> make_box(const FacetNodes<dim> &nodes)
 {
   SpatialVector<dim> lower = nodes.position[0], upper = nodes.position[0];
-  for (unsigned int i = 1; i < nodes.n_nodes; ++i)
+  const unsigned int n_nodes = nodes.n_nodes();
+  for (unsigned int i = 1; i < n_nodes; ++i)
   {
     lower = lower.cwiseMin(nodes.position[i]);
     upper = upper.cwiseMax(nodes.position[i]);
   }
-  const double bulge = (nodes.degree == 1 ? 1. : dim == 2 ? 1.25 : 1.5625);
-  return {0.5 * (lower + upper), 0.5 * bulge * (upper - lower)};
-}
-
-/// −1 where ξ_α is held at 0, +1 at 1, 0 inside.
-template <int dim>
-std::array<int, dim - 1> find_sides(const LocalPoint<dim> &xi)
-{
-  std::array<int, dim - 1> sides;
-  for (int a = 0; a < dim - 1; ++a)
-    sides[a] = (xi[a] <= tie_tolerance ? -1 : xi[a] >= 1. - tie_tolerance ? 1 : 0);
-  return sides;
+  return {0.5 * (lower + upper), 0.5 * lebesgue_constant(nodes) * (upper - lower)};
 }
 
 template <int dim>
@@ -75,28 +66,29 @@ struct Fan
 template <>
 void Fan<2>::add_sector(const FacetNodes<2> &nodes, const LocalPoint<2> &xi)
 {
-  const int side = find_sides<2>(xi)[0];
-  normal += (side == 0 ? 2. * pi : pi) * make_unit<2>(evaluate_facet_frame(nodes, xi).area_normal);
-  open_rim[0] += side;
+  const LocalPlace<2> place = find_local_place(nodes, xi, tie_tolerance);
+  const bool is_inside = place.n_free == 1;
+  normal += (is_inside ? 2. * pi : pi) * make_unit<2>(evaluate_facet_frame(nodes, xi).area_normal);
+  if (!is_inside)
+    open_rim[0] -= place.directions(0, 0);
 }
 
 template <>
 void Fan<3>::add_sector(const FacetNodes<3> &nodes, const LocalPoint<3> &xi)
 {
   const FacetFrame<3> frame = evaluate_facet_frame(nodes, xi);
-  const std::array<int, 2> sides = find_sides<3>(xi);
-  const SpatialVector<3> t0 = make_unit<3>(frame.tangent[0]), t1 = make_unit<3>(frame.tangent[1]);
+  const LocalPlace<3> place = find_local_place(nodes, xi, tie_tolerance);
   double angle = 2. * pi;
-  if (sides[0] != 0 && sides[1] != 0)
+  if (place.n_free < 2)
   {
-    const SpatialVector<3> inward_0 = -sides[0] * t0, inward_1 = -sides[1] * t1;
-    angle = std::atan2(inward_0.cross(inward_1).norm(), inward_0.dot(inward_1));
-    open_rim += sides[0] * sides[1] * (inward_1 - inward_0);
-  }
-  else if (sides[0] != 0 || sides[1] != 0)
-  {
-    angle = pi;
-    open_rim += 2. * (sides[1] * t0 - sides[0] * t1);
+    const auto edge = [&](const int i)
+    {
+      return make_unit<3>(place.directions(0, i) * frame.tangent[0] +
+                          place.directions(1, i) * frame.tangent[1]);
+    };
+    const SpatialVector<3> first = edge(0), last = (place.n_free == 1 ? SpatialVector<3>(-first) : edge(1));
+    angle = (place.n_free == 1 ? pi : std::atan2(first.cross(last).norm(), first.dot(last)));
+    open_rim += last - first;
   }
   normal += angle * make_unit<3>(frame.area_normal);
 }
@@ -164,11 +156,10 @@ SurfaceFoot<dim> find_foot(const std::vector<Facet<dim>> &facets,
     return foot;
 
   const SpatialVector<dim> outwards = foot.closest.position - x;
-  const auto sides = find_sides<dim>(foot.closest.xi);
+  const Facet<dim> &facet = facets[foot.facet];
   Fan<dim> fan;
-  if (std::all_of(sides.begin(), sides.end(), [](const int side) { return side == 0; }))
-    fan.normal =
-        evaluate_facet_frame(gather_nodes(facets[foot.facet], positions), foot.closest.xi).area_normal;
+  if (find_local_place(facet, foot.closest.xi, tie_tolerance).n_free == dim - 1)
+    fan.normal = evaluate_facet_frame(gather_nodes(facet, positions), foot.closest.xi).area_normal;
   else
     fan = gather_fan(facets, positions, candidates, n_candidates, foot.closest.position);
 

@@ -2,6 +2,7 @@
 #include "signorini/contact/geometry/segments.h"
 
 #include "signorini/contact/geometry/line_rule.h"
+#include "signorini/contact/geometry/local_domain.h"
 
 #include <Eigen/Geometry>
 
@@ -15,11 +16,6 @@ namespace
 constexpr double smallest_share = 1e-14; ///< overlaps below this part of the contactor are dropped
 
 using PlanePoint = Eigen::Vector2d;
-
-double cross(const PlanePoint &a, const PlanePoint &b)
-{
-  return a.x() * b.y() - a.y() * b.x();
-}
 
 /// A polygon in the plane, counter-clockwise. Two convex quadrilaterals share at most eight corners; the room
 /// beyond is for corners that round-off doubles.
@@ -82,7 +78,7 @@ struct Piece
   PlanePoint find_local_point(const PlanePoint &x) const;
 };
 
-/// At most four sub-facets of two triangles.
+/// At most four sub-facets of two triangles each.
 struct Pieces
 {
   std::array<Piece, 8> piece;
@@ -125,23 +121,29 @@ PlanePoint Piece::find_local_point(const PlanePoint &x) const
   }
   const PlanePoint b = outline.corner[1] - outline.corner[0], c = outline.corner[2] - outline.corner[0];
   const PlanePoint e = x - outline.corner[0];
-  return xi[0] + (cross(e, c) * (xi[1] - xi[0]) + cross(b, e) * (xi[2] - xi[0])) / cross(b, c);
+  const double u = std::clamp(cross(e, c) / cross(b, c), 0., 1.);
+  const double v = std::clamp(cross(b, e) / cross(b, c), 0., 1. - u);
+  return xi[0] + u * (xi[1] - xi[0]) + v * (xi[2] - xi[0]);
 }
 
-/// Adds a quadrilateral as it is where it is convex, else cut in two at the corner that bends inwards most.
+void add_piece(const Piece &piece, Pieces &pieces)
+{
+  if (piece.outline.area() > 0.)
+    pieces.piece[pieces.n_pieces++] = piece;
+}
+
+/// Adds a piece as it is where it is convex, else cut in two at the corner that bends inwards most.
 void add_convex_pieces(const Piece &whole, Pieces &pieces)
 {
+  if (whole.outline.n_corners == 3)
+    return add_piece(whole, pieces);
   const auto &corner = whole.outline.corner;
   std::array<double, 4> bend;
   for (unsigned int i = 0; i < 4; ++i)
     bend[i] = cross(corner[i] - corner[(i + 3) % 4], corner[(i + 1) % 4] - corner[i]);
   const auto lowest = std::min_element(bend.begin(), bend.end());
   if (*lowest >= 0.)
-  {
-    if (whole.outline.area() > 0.)
-      pieces.piece[pieces.n_pieces++] = whole;
-    return;
-  }
+    return add_piece(whole, pieces);
   const auto k = static_cast<unsigned int>(lowest - bend.begin());
   for (unsigned int half = 0; half < 2; ++half)
   {
@@ -151,8 +153,7 @@ void add_convex_pieces(const Piece &whole, Pieces &pieces)
       triangle.xi[triangle.outline.n_corners] = whole.xi[i % 4];
       triangle.outline.add(corner[i % 4]);
     }
-    if (triangle.outline.area() > 0.)
-      pieces.piece[pieces.n_pieces++] = triangle;
+    add_piece(triangle, pieces);
   }
 }
 
@@ -167,34 +168,31 @@ Pieces make_pieces(const FacetNodes<3> &nodes, const SpatialVector<3> &origin,
                    const Eigen::Matrix<double, 2, 3> &axes, const Seen seen)
 {
   Pieces pieces;
-  const unsigned int n = nodes.degree;
-  for (unsigned int j = 0; j < n; ++j)
-    for (unsigned int i = 0; i < n; ++i)
+  for (const SubFacet &part : get_sub_facets(nodes))
+  {
+    Piece whole;
+    for (unsigned int k = 0; k < part.n_corners; ++k)
     {
-      Piece whole;
-      for (unsigned int k = 0; k < 4; ++k)
-      {
-        const unsigned int around = (seen == Seen::from_outside ? k : 3 - k);
-        const unsigned int column = i + (around == 1 || around == 2), row = j + around / 2;
-        whole.xi[k] = PlanePoint(column, row) / n;
-        whole.outline.add(axes * (nodes.position[column + (n + 1) * row] - origin));
-      }
-      add_convex_pieces(whole, pieces);
+      const unsigned int node = part.corner[seen == Seen::from_outside ? k : part.n_corners - 1 - k];
+      whole.xi[k] = node_coordinates(nodes, node);
+      whole.outline.add(axes * (nodes.position[node] - origin));
     }
+    add_convex_pieces(whole, pieces);
+  }
   return pieces;
 }
 
-/// Area times mean normal: half the sum of the cross products of the sub-facets' diagonals.
+/// Area times mean normal of the sub-facets.
 SpatialVector<3> compute_mean_normal(const FacetNodes<3> &nodes)
 {
   SpatialVector<3> normal = SpatialVector<3>::Zero();
-  const unsigned int n = nodes.degree, row = n + 1;
-  for (unsigned int j = 0; j < n; ++j)
-    for (unsigned int i = 0; i < n; ++i)
-    {
-      const SpatialVector<3> *first = &nodes.position[i + row * j];
-      normal += 0.5 * (first[row + 1] - first[0]).cross(first[row] - first[1]);
-    }
+  for (const SubFacet &part : get_sub_facets(nodes))
+  {
+    const auto side = [&](const unsigned int k) -> SpatialVector<3>
+    { return nodes.position[part.corner[k]] - nodes.position[part.corner[0]]; };
+    for (unsigned int k = 1; k + 1 < part.n_corners; ++k)
+      normal += 0.5 * side(k).cross(side(k + 1));
+  }
   return normal;
 }
 
@@ -299,18 +297,20 @@ std::vector<FacetQuadraturePoint<2>> make_overlap_points(const FacetNodes<2> &co
 } // namespace
 
 template <int dim>
-std::vector<FacetQuadraturePoint<dim>> make_gauss_points(const unsigned int n_points)
+std::vector<FacetQuadraturePoint<dim>> make_gauss_points(const FacetType type, const unsigned int n_points)
 {
   const LineRule &rule = get_line_rule(n_points, LineWeight::constant);
   std::vector<FacetQuadraturePoint<dim>> points;
-  for (unsigned int j = 0; j < (dim == 2 ? 1 : n_points); ++j)
+  if constexpr (dim == 2)
     for (unsigned int i = 0; i < n_points; ++i)
-    {
-      if constexpr (dim == 2)
-        points.push_back({LocalPoint<2>(rule.point[i]), rule.weight[i]});
-      else
+      points.push_back({LocalPoint<2>(rule.point[i]), rule.weight[i]});
+  else if (type == FacetType::triangle)
+    add_triangle_points(local_corner(type, 0), local_corner(type, 1), local_corner(type, 2), n_points,
+                        points);
+  else
+    for (unsigned int j = 0; j < n_points; ++j)
+      for (unsigned int i = 0; i < n_points; ++i)
         points.push_back({LocalPoint<3>(rule.point[i], rule.point[j]), rule.weight[i] * rule.weight[j]});
-    }
   return points;
 }
 
@@ -331,8 +331,8 @@ std::vector<FacetQuadraturePoint<dim>> make_segment_points(const FacetNodes<dim>
   return points;
 }
 
-template std::vector<FacetQuadraturePoint<2>> make_gauss_points<2>(unsigned int);
-template std::vector<FacetQuadraturePoint<3>> make_gauss_points<3>(unsigned int);
+template std::vector<FacetQuadraturePoint<2>> make_gauss_points<2>(FacetType, unsigned int);
+template std::vector<FacetQuadraturePoint<3>> make_gauss_points<3>(FacetType, unsigned int);
 template std::vector<FacetQuadraturePoint<2>> make_segment_points(const FacetNodes<2> &,
                                                                   const FacetNodes<2> &, unsigned int);
 template std::vector<FacetQuadraturePoint<3>> make_segment_points(const FacetNodes<3> &,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "signorini/contact/potential/contact_potential.h"
 
+#include "signorini/contact/geometry/local_domain.h"
 #include "signorini/contact/potential/pair_tangent.h"
 
 #include <algorithm>
@@ -99,9 +100,8 @@ PairFoot<dim> ContactPotential<dim>::evaluate_body_pair(const ContactPair<dim> &
   result.facet = foot.facet;
   result.closest = foot.closest;
   result.gap = result.position - foot.closest.position;
-  result.shape = evaluate_facet_shape<dim>(target.degree, foot.closest.xi).value;
-  const bool is_inside_facet =
-      std::all_of(foot.closest.free.begin(), foot.closest.free.end(), [](bool is_free) { return is_free; });
+  result.shape = evaluate_facet_shape(target, foot.closest.xi).value;
+  const bool is_inside_facet = find_local_place(target, foot.closest.xi, 0.).n_free == dim - 1;
   if (!is_inside_facet && foot.closest.distance > 1e-9 * target.layer_thickness)
   {
     result.normal = result.gap / -foot.depth;

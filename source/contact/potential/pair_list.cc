@@ -33,10 +33,11 @@ PairList<dim>::PairList(const ContactSurface<dim> &contact_surface, Obstacles ri
       neighbour_list(make_neighbour_list())
 {
   for (const Facet<dim> &facet : surface.facets)
-    largest_motion_factor = std::max(largest_motion_factor, motion_factor<dim>(facet.degree));
-  for (unsigned int degree : {1, 2})
-    for (const auto &point : make_gauss_points<dim>(settings_.n_quadrature_points))
-      gauss_points[degree - 1].push_back({point, evaluate_facet_shape<dim>(degree, point.xi).value});
+    largest_motion_factor = std::max(largest_motion_factor, lebesgue_constant(facet));
+  for (const Facet<dim> &facet : surface.facets)
+    if (FacetPoints &points = gauss_points[index(facet)]; points.empty())
+      for (const auto &point : make_gauss_points<dim>(facet.type, settings_.n_quadrature_points))
+        points.push_back({point, evaluate_facet_shape(facet, point.xi).value});
 }
 
 template <int dim>
@@ -163,7 +164,7 @@ void PairList<dim>::add_body_pairs(unsigned int neighbours, const Positions &pos
     for (const unsigned int candidate : found.candidates)
       add_segment_pairs(neighbours, candidate, positions);
   else
-    for (const FacetPoint &point : gauss_points[surface.facets[found.facet].degree - 1])
+    for (const FacetPoint &point : gauss_points[index(surface.facets[found.facet])])
       add_body_pair(neighbours, point, std::nullopt, positions);
 }
 
@@ -175,8 +176,7 @@ void PairList<dim>::add_segment_pairs(unsigned int neighbours, unsigned int cand
   for (const auto &point :
        make_segment_points(gather_nodes(contactor, positions),
                            gather_nodes(surface.facets[candidate], positions), settings_.n_quadrature_points))
-    add_body_pair(neighbours, {point, evaluate_facet_shape<dim>(contactor.degree, point.xi).value}, candidate,
-                  positions);
+    add_body_pair(neighbours, {point, evaluate_facet_shape(contactor, point.xi).value}, candidate, positions);
 }
 
 template <int dim>
@@ -224,7 +224,7 @@ void PairList<dim>::add_obstacle_pairs(unsigned int obstacle, const Positions &p
     if (!facet.owned || is_excluded_obstacle(facet.body, obstacle) ||
         node_feet[facet.nodes[0]].depth + make_facet_box(facet, positions).diagonal().norm() < -largest_gap)
       continue;
-    for (const FacetPoint &point : gauss_points[facet.degree - 1])
+    for (const FacetPoint &point : gauss_points[index(facet)])
     {
       ContactPair<dim> pair;
       pair.facet = f;

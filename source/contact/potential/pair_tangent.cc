@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "signorini/contact/potential/pair_tangent.h"
 
+#include "signorini/contact/geometry/local_domain.h"
+
 #include <Eigen/LU>
 
 #include <cmath>
@@ -9,9 +11,6 @@ namespace signorini::contact
 {
 namespace
 {
-template <int dim>
-using LocalTensor = Eigen::Matrix<double, dim - 1, dim - 1>;
-
 /// F_xξ, one column a local direction. Lives on the stack.
 template <int dim>
 using Coupling = Eigen::Matrix<double, Eigen::Dynamic, dim - 1, Eigen::ColMajor,
@@ -41,10 +40,10 @@ template <int dim>
 TargetJet<dim> evaluate_jet(const FacetNodes<dim> &target, const LocalPoint<dim> &xi)
 {
   TargetJet<dim> jet;
-  jet.shape = evaluate_facet_shape<dim>(target.degree, xi);
+  jet.shape = evaluate_facet_shape(target, xi);
   jet.first.fill(SpatialVector<dim>::Zero());
   jet.second.fill(SpatialVector<dim>::Zero());
-  for (unsigned int a = 0; a < target.n_nodes; ++a)
+  for (unsigned int a = 0; a < jet.shape.n_nodes; ++a)
   {
     for (unsigned int i = 0; i < dim - 1; ++i)
       jet.first[i] += jet.shape.first[a][i] * target.position[a];
@@ -54,13 +53,12 @@ TargetJet<dim> evaluate_jet(const FacetNodes<dim> &target, const LocalPoint<dim>
   return jet;
 }
 
-/// A foot held at 0 or 1 without being pushed there lies on a seam between facets in one plane, and slides on
+/// A foot held on a side without being pushed there lies on a seam between facets in one plane, and slides on
 /// as freely as one beside the seam does.
 template <int dim>
-bool may_slide(const PairFoot<dim> &foot, const SpatialVector<dim> &tangent, unsigned int direction)
+bool is_pushed(const PairFoot<dim> &foot, const SpatialVector<dim> &tangent)
 {
-  return foot.closest.free[direction] ||
-         std::abs(foot.gap.dot(tangent)) <= 1e-8 * foot.gap.norm() * tangent.norm();
+  return std::abs(foot.gap.dot(tangent)) > 1e-8 * foot.gap.norm() * tangent.norm();
 }
 
 template <int dim>
@@ -107,18 +105,23 @@ void compute_body_tangent(const ContactPair<dim> &pair, const PairFoot<dim> &fou
   const double ratio = pair.offset != 0. ? overlap / foot.depth : 1.;
 
   const TargetJet<dim> jet = evaluate_jet(target, foot.closest.xi);
-  Coupling<dim> coupling = compute_coupling(foot, stencil, jet);
-  LocalTensor<dim> hessian = compute_local_hessian(foot, jet);
+  const LocalPlace<dim> place = find_local_place(target, foot.closest.xi, 0.);
+  Coupling<dim> coupling = compute_coupling(foot, stencil, jet) * place.directions;
+  LocalTensor<dim> hessian =
+      place.directions.transpose() * compute_local_hessian(foot, jet) * place.directions;
   double size = 1.;
   for (unsigned int i = 0; i < dim - 1; ++i)
   {
-    size *= jet.first[i].squaredNorm();
-    if (!may_slide(foot, jet.first[i], i))
+    SpatialVector<dim> tangent = SpatialVector<dim>::Zero();
+    for (unsigned int a = 0; a < dim - 1; ++a)
+      tangent += place.directions(a, i) * jet.first[a];
+    size *= tangent.squaredNorm();
+    if (i >= place.n_free && is_pushed(foot, tangent))
     {
       coupling.col(i).setZero();
       hessian.row(i).setZero();
       hessian.col(i).setZero();
-      hessian(i, i) = jet.first[i].squaredNorm();
+      hessian(i, i) = tangent.squaredNorm();
     }
   }
 

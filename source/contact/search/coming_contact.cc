@@ -18,7 +18,7 @@ double largest_speed(const Facet<dim> &facet, const StraightMotion<dim> &motion,
   double largest = 0.;
   for (unsigned int a = 0; a < facet.n_nodes(); ++a)
     largest = std::max(largest, (motion.velocities[facet.nodes[a]] - reference).norm());
-  return motion_factor<dim>(facet.degree) * largest;
+  return lebesgue_constant(facet) * largest;
 }
 
 template <int dim>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "signorini/contact/search/neighbour_list.h"
 
+#include "signorini/contact/geometry/facet_shape.h"
 #include "signorini/contact/search/box_tree.h"
 
 #include <boost/iterator/function_output_iterator.hpp>
@@ -69,7 +70,7 @@ NeighbourList<dim>::NeighbourList(const ContactSurface<dim> &contact_surface, st
   for (unsigned int f = 0; f < surface.facets.size(); ++f)
   {
     facets_of_body.at(surface.facets[f].body).push_back(f);
-    largest_motion_factor = std::max(largest_motion_factor, motion_factor<dim>(surface.facets[f].degree));
+    largest_motion_factor = std::max(largest_motion_factor, lebesgue_constant(surface.facets[f]));
   }
 }
 

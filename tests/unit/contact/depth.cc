@@ -3,6 +3,7 @@
 
 #include "facet_samples.h"
 
+#include <Eigen/LU>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -24,26 +25,48 @@ struct Surface
 {
   std::vector<Facet<dim>> facets;
   std::vector<SpatialVector<dim>> positions;
+  FacetType type = FacetType::tensor_product;
 
-  /// Adds the patch y(ξ) = origin + Σ ξ_α side_α, cut into n pieces a direction.
+  /// Adds the patch y(ξ) = origin + Σ ξ_α side_α, cut into n pieces a direction, each of one quadrilateral or
+  /// two triangles.
   void add_patch(const SpatialVector<dim> &origin, const std::array<SpatialVector<dim>, dim - 1> &side,
                  const unsigned int n = 1, const unsigned int degree = 1)
   {
-    const FacetNodes<dim> unit = testing::make_unit_facet<dim>(degree);
-    for (unsigned int piece = 0; piece < (dim == 2 ? n : n * n); ++piece)
+    const unsigned int n_parts = (type == FacetType::triangle ? 2 : 1);
+    for (unsigned int part = 0; part < n_parts * (dim == 2 ? n : n * n); ++part)
     {
+      const unsigned int piece = part / n_parts;
       Facet<dim> facet;
       facet.degree = degree;
-      for (unsigned int i = 0; i < unit.n_nodes; ++i)
+      facet.type = type;
+      for (unsigned int i = 0; i < facet.n_nodes(); ++i)
       {
-        SpatialVector<dim> position = origin + (piece % n + unit.position[i][0]) / n * side[0];
+        LocalPoint<dim> xi = node_coordinates(facet, i);
+        if (part % n_parts == 1)
+          xi = LocalPoint<dim>::Ones() - xi;
+        SpatialVector<dim> position = origin + (piece % n + xi[0]) / n * side[0];
         if constexpr (dim == 3)
-          position += (piece / n + unit.position[i][1]) / n * side[1];
+          position += (piece / n + xi[1]) / n * side[1];
         facet.nodes[i] = static_cast<unsigned int>(positions.size());
         positions.push_back(position);
       }
       facets.push_back(facet);
     }
+  }
+
+  void add_triangle(const SpatialVector<dim> &a, const SpatialVector<dim> &b, const SpatialVector<dim> &c,
+                    const unsigned int degree)
+  {
+    Facet<dim> facet;
+    facet.degree = degree;
+    facet.type = FacetType::triangle;
+    for (unsigned int i = 0; i < facet.n_nodes(); ++i)
+    {
+      const LocalPoint<dim> xi = node_coordinates(facet, i);
+      facet.nodes[i] = static_cast<unsigned int>(positions.size());
+      positions.push_back((1. - xi.sum()) * a + xi[0] * b + xi[dim - 2] * c);
+    }
+    facets.push_back(facet);
   }
 
   void move(const std::function<SpatialVector<dim>(const SpatialVector<dim> &)> &map)
@@ -105,11 +128,13 @@ double find_box_depth(const SpatialVector<dim> &low, const SpatialVector<dim> &h
 }
 
 template <int dim>
-void compare_with_box(const std::array<unsigned int, 2 * dim> &n, const unsigned int degree)
+void compare_with_box(const std::array<unsigned int, 2 * dim> &n, const unsigned int degree,
+                      const FacetType type = FacetType::tensor_product)
 {
   Dice dice(7);
   const SpatialVector<dim> low = SpatialVector<dim>::Constant(-1.), high = 2. * SpatialVector<dim>::Ones();
   Surface<dim> surface;
+  surface.type = type;
   add_box<dim>(surface, low, high, n, degree);
   const SpatialTensor<dim> rotation = dice.rotation<dim>();
   surface.move([&](const SpatialVector<dim> &x) { return SpatialVector<dim>(rotation * x); });
@@ -128,6 +153,8 @@ TEST(Depth, MatchesTheBox)
   compare_with_box<2>({2, 3, 1, 4}, 2);
   compare_with_box<3>({1, 1, 1, 1, 1, 1}, 1);
   compare_with_box<3>({1, 1, 1, 1, 1, 1}, 2);
+  compare_with_box<3>({1, 1, 1, 1, 1, 1}, 1, FacetType::triangle);
+  compare_with_box<3>({2, 1, 1, 2, 1, 1}, 2, FacetType::triangle);
 }
 
 TEST(Depth, MatchesTheBoxWithHangingNodes)
@@ -140,8 +167,10 @@ TEST(Depth, MatchesTheBoxWithHangingNodes)
 /// Points right at, above and below every kind of place of the box: sides, edges, corners, hanging nodes.
 TEST(Depth, IsRightAndNeverNotANumberOnTheSurfaceItself)
 {
-  Surface<3> surface;
-  add_box<3>(surface, {0., 0., 0.}, {1., 1., 1.}, {1, 2, 1, 1, 1, 1});
+  Surface<3> quadrilaterals, triangles;
+  add_box<3>(quadrilaterals, {0., 0., 0.}, {1., 1., 1.}, {1, 2, 1, 1, 1, 1});
+  triangles.type = FacetType::triangle;
+  add_box<3>(triangles, {0., 0., 0.}, {1., 1., 1.}, {1, 2, 1, 1, 1, 1});
   const std::array<double, 5> grid = {0., 0.25, 0.5, 0.75, 1.};
   for (const double a : grid)
     for (const double b : grid)
@@ -151,15 +180,18 @@ TEST(Depth, IsRightAndNeverNotANumberOnTheSurfaceItself)
           const SpatialVector<3> x =
               SpatialVector<3>(a, b, c) * (1. + shift) - SpatialVector<3>::Constant(0.5 * shift);
           const double exact = find_box_depth<3>({0., 0., 0.}, {1., 1., 1.}, x);
-          EXPECT_NEAR(surface.find(x).depth, exact, 1e-15) << x.transpose();
+          EXPECT_NEAR(quadrilaterals.find(x).depth, exact, 1e-15) << x.transpose();
+          // A foot that is nearer by less than 1e-12 beside a diagonal counts as one on it.
+          EXPECT_NEAR(triangles.find(x).depth, exact, 1e-15 + 1e-12 * std::abs(exact)) << x.transpose();
         }
 }
 
 template <int dim>
-void compare_with_bent_body()
+void compare_with_bent_body(const FacetType type)
 {
   // [0, 2]² without (1, 2]²: two boxes, their common part left out.
   Surface<dim> surface;
+  surface.type = type;
   const auto add = [&](const std::array<double, 4> &ends, const unsigned int n)
   {
     if constexpr (dim == 2)
@@ -213,14 +245,16 @@ void compare_with_bent_body()
 
 TEST(Depth, MatchesTheBentBody)
 {
-  compare_with_bent_body<2>();
-  compare_with_bent_body<3>();
+  compare_with_bent_body<2>(FacetType::tensor_product);
+  compare_with_bent_body<3>(FacetType::tensor_product);
+  compare_with_bent_body<3>(FacetType::triangle);
 }
 
 /// A blade's tip and a steep cone: here the sum of plain normals, or one facet's alone, gives the wrong sign.
-TEST(Depth, HoldsAtASharpTip)
+void expect_sharp_tip(const FacetType type)
 {
   Surface<3> blade;
+  blade.type = type;
   add_box<3>(blade, {-1., -1., 0.}, {1., 1., 1.}, {3, 1, 1, 1, 1, 2});
   blade.move(
       [](const SpatialVector<3> &x)
@@ -244,10 +278,59 @@ TEST(Depth, HoldsAtASharpTip)
   EXPECT_LT(n_outside_near_tip, testing::count_cases(5000));
 }
 
+TEST(Depth, HoldsAtASharpTip)
+{
+  expect_sharp_tip(FacetType::tensor_product);
+  expect_sharp_tip(FacetType::triangle);
+}
+
+/// Slivers too: depth is the least distance from a face's plane inside, and negative outside.
+TEST(Depth, MatchesTetrahedra)
+{
+  Dice dice(37);
+  unsigned int n_inside = 0;
+  for (unsigned int i = 0; i < testing::count_cases(300); ++i)
+  {
+    Surface<3> surface;
+    surface.type = FacetType::triangle;
+    const double height = std::pow(10., dice.number(-2., 0.));
+    Eigen::Matrix<double, 3, 4> corner;
+    corner << 0., 1., 0., 0.3, 0., 0., 1., 0.2, 0., 0., 0., 1.;
+    corner.row(2) *= height;
+    corner += Eigen::Matrix<double, 3, 4>(dice.point<12>(-0.1 * height, 0.1 * height).reshaped(3, 4));
+    for (const std::array<int, 3> &face :
+         std::vector<std::array<int, 3>>{{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}})
+      surface.add_triangle(corner.col(face[0]), corner.col(face[1]), corner.col(face[2]), 1 + i % 2);
+    Eigen::Matrix4d affine;
+    affine << corner, Eigen::RowVector4d::Ones();
+    const Eigen::Matrix4d inverse = affine.inverse();
+    for (unsigned int n = 0; n < 40; ++n)
+    {
+      // Half of the points near an edge or a corner.
+      Eigen::Vector4d weight = dice.point<4>(-0.3, 1.).array().pow(n % 2 == 0 ? 1. : 5.);
+      weight /= weight.sum();
+      if (weight.cwiseAbs().maxCoeff() > 3.)
+        continue;
+      const SpatialVector<3> x = corner * weight;
+      const SurfaceFoot<3> foot = surface.find(x);
+      double least = infinity;
+      for (int k = 0; k < 4; ++k)
+        least = std::min(least, weight[k] / inverse.row(k).head<3>().norm());
+      if (least > 0.)
+        EXPECT_NEAR(foot.depth, least, 1e-13);
+      else
+        EXPECT_LE(foot.depth, least + 1e-13) << weight.transpose();
+      n_inside += least > 0.;
+    }
+  }
+  EXPECT_GT(n_inside, testing::count_cases(1000));
+}
+
 /// A closed body of degree 2 with hanging nodes, bent by a quadratic map: its curved sides are exact.
-TEST(Depth, HasTheRightSignOnACurvedBody)
+void expect_right_sign_on_curved_body(const FacetType type)
 {
   Surface<3> body;
+  body.type = type;
   add_box<3>(body, {-1., -1., -1.}, {1., 1., 1.}, {1, 2, 1, 2, 1, 1}, 2);
   const auto bend = [](const SpatialVector<3> &x)
   { return SpatialVector<3>(x.x() + 0.3 * x.y() * x.y(), x.y(), x.z() + 0.2 * x.y() * x.y()); };
@@ -262,6 +345,12 @@ TEST(Depth, HasTheRightSignOnACurvedBody)
     n_inside += inside;
   }
   EXPECT_GT(n_inside, testing::count_cases(500));
+}
+
+TEST(Depth, HasTheRightSignOnACurvedBody)
+{
+  expect_right_sign_on_curved_body(FacetType::tensor_product);
+  expect_right_sign_on_curved_body(FacetType::triangle);
 }
 
 TEST(Depth, IsMinusInfinityWhereAllFacetsAreBeyondTheCutoff)
@@ -282,13 +371,17 @@ TEST(Depth, IsMinusInfinityWhereAllFacetsAreBeyondTheCutoff)
 
 TEST(Depth, HasNoInsideBesideTheRimOfAnOpenSurface)
 {
-  Surface<3> surface;
-  surface.add_patch({0., 0., 0.}, {SpatialVector<3>(1., 0., 0.), SpatialVector<3>(0., 1., 0.)}, 2);
-  EXPECT_NEAR(surface.find({0.5, 0.5, -0.1}).depth, 0.1, 1e-15); // below the middle, where four facets meet
-  EXPECT_NEAR(surface.find({1., 0.3, -0.1}).depth, 0.1, 1e-15);  // right below the rim
-  EXPECT_NEAR(surface.find({1., 0.3, 0.1}).depth, -0.1, 1e-15);  // right above it
-  EXPECT_NEAR(surface.find({1.3, 0.3, -0.1}).depth, -std::hypot(0.3, 0.1), 1e-15);
-  EXPECT_NEAR(surface.find({1.3, 1.4, -0.1}).depth, -std::hypot(0.5, 0.1), 1e-15);
+  for (const FacetType type : {FacetType::tensor_product, FacetType::triangle})
+  {
+    Surface<3> surface;
+    surface.type = type;
+    surface.add_patch({0., 0., 0.}, {SpatialVector<3>(1., 0., 0.), SpatialVector<3>(0., 1., 0.)}, 2);
+    EXPECT_NEAR(surface.find({0.5, 0.5, -0.1}).depth, 0.1, 1e-15); // below the middle, where four facets meet
+    EXPECT_NEAR(surface.find({1., 0.3, -0.1}).depth, 0.1, 1e-15);  // right below the rim
+    EXPECT_NEAR(surface.find({1., 0.3, 0.1}).depth, -0.1, 1e-15);  // right above it
+    EXPECT_NEAR(surface.find({1.3, 0.3, -0.1}).depth, -std::hypot(0.3, 0.1), 1e-15);
+    EXPECT_NEAR(surface.find({1.3, 1.4, -0.1}).depth, -std::hypot(0.5, 0.1), 1e-15);
+  }
   Surface<2> line;
   line.add_patch({0., 0.}, {SpatialVector<2>(-1., 0.)}, 2);
   EXPECT_NEAR(line.find({-0.5, -0.1}).depth, 0.1, 1e-15);

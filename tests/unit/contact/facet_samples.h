@@ -6,6 +6,7 @@
 #include <Eigen/Geometry>
 
 #include <random>
+#include <vector>
 
 namespace signorini::contact::testing
 {
@@ -53,32 +54,49 @@ private:
   std::mt19937 generator;
 };
 
+/// All kinds of facet that there are.
+template <int dim>
+std::vector<FacetElement<dim>> all_elements()
+{
+  if constexpr (dim == 2)
+    return {{1}, {2}};
+  else
+    return {{1}, {2}, {1, FacetType::triangle}, {2, FacetType::triangle}};
+}
+
 /// The flat unit facet in the plane of the first axes, outward normal along the last (2-D: along −y).
 template <int dim>
-FacetNodes<dim> make_unit_facet(const unsigned int degree)
+FacetNodes<dim> make_unit_facet(const FacetElement<dim> &element)
 {
   FacetNodes<dim> nodes;
-  nodes.degree = degree;
-  nodes.n_nodes = (dim == 2 ? degree + 1 : (degree + 1) * (degree + 1));
-  for (unsigned int i = 0; i < nodes.n_nodes; ++i)
+  static_cast<FacetElement<dim> &>(nodes) = element;
+  for (unsigned int i = 0; i < nodes.n_nodes(); ++i)
   {
     nodes.position[i].setZero();
-    nodes.position[i][0] = static_cast<double>(i % (degree + 1)) / degree;
-    if (dim == 3)
-      nodes.position[i][1] = static_cast<double>(i / (degree + 1)) / degree;
+    nodes.position[i].template head<dim - 1>() = node_coordinates(element, i);
   }
   return nodes;
 }
 
 /// A unit facet whose nodes are each moved by up to `warp` a direction, then turned and shifted.
 template <int dim>
-FacetNodes<dim> make_warped_facet(const unsigned int degree, const double warp, Dice &dice)
+FacetNodes<dim> make_warped_facet(const FacetElement<dim> &element, const double warp, Dice &dice)
 {
-  FacetNodes<dim> nodes = make_unit_facet<dim>(degree);
+  FacetNodes<dim> nodes = make_unit_facet(element);
   const SpatialTensor<dim> rotation = dice.rotation<dim>();
   const SpatialVector<dim> shift = dice.point<dim>(-1., 1.);
-  for (unsigned int i = 0; i < nodes.n_nodes; ++i)
+  for (unsigned int i = 0; i < nodes.n_nodes(); ++i)
     nodes.position[i] = rotation * (nodes.position[i] + dice.point<dim>(-warp, warp)) + shift;
   return nodes;
+}
+
+/// A point of a facet's local domain, no nearer to its sides than `margin`.
+template <int dim>
+LocalPoint<dim> make_local_point(const FacetElement<dim> &element, const double margin, Dice &dice)
+{
+  LocalPoint<dim> xi = dice.point<dim - 1>(margin, 1. - margin);
+  while (element.type == FacetType::triangle && xi.sum() > 1. - margin)
+    xi = dice.point<dim - 1>(margin, 1. - margin);
+  return xi;
 }
 } // namespace signorini::contact::testing

@@ -9,11 +9,9 @@ namespace signorini::contact
 template <int dim>
 struct ClosestPoint
 {
-  LocalPoint<dim> xi;          ///< its local coordinates, in [0, 1]
+  LocalPoint<dim> xi;          ///< its local coordinates, on a side or in a corner exactly where held there
   SpatialVector<dim> position; ///< the foot y(ξ)
-  std::array<bool, dim - 1>
-      free{};           ///< per local direction: not held at 0 or 1 (interior: all true; corner: none)
-  double distance = 0.; ///< |x − y|
+  double distance = 0.;        ///< |x − y|
 };
 
 /// Minimises |x − y(ξ)| over the facet, its edges and its corners, to round-off. Robust for warped and

@@ -2,15 +2,13 @@
 #pragma once
 
 #include "signorini/contact/geometry/facet_shape.h"
+#include "signorini/contact/geometry/local_domain.h"
 
 #include <cmath>
 
 // Inline throughout: this is the innermost loop of contact search.
 namespace signorini::contact
 {
-template <int dim>
-using LocalTensor = Eigen::Matrix<double, dim - 1, dim - 1>;
-
 /// A polynomial on s ∈ [−1, 1]^n_directions of up to `degree` in each direction: the coefficient of s_0^i
 /// s_1^j has index i + (degree + 1) j. Powers about the middle make a bound over the whole square one sum of
 /// magnitudes.
@@ -49,13 +47,32 @@ struct LocalJet
   LocalTensor<dim> hessian;
 };
 
+/// Turns the nodes of a triangle into those of the square that it is half of: the same polynomial continued,
+/// whose mixed second difference is the same everywhere.
+template <int degree>
+void continue_to_square(std::array<SpatialVector<3>, (degree + 1) * (degree + 1)> &node)
+{
+  constexpr int n = degree + 1;
+  SpatialVector<3> mixed = SpatialVector<3>::Zero();
+  if constexpr (degree == 2)
+  {
+    node = {node[0], node[3], node[1], node[5], node[4], node[4], node[2], node[4], node[4]};
+    mixed = node[n + 1] - node[n] - node[1] + node[0];
+  }
+  for (int j = 1; j <= degree; ++j)
+    for (int i = n - j; i <= degree; ++i)
+      node[i + n * j] = node[i - 1 + n * j] + node[i + n * (j - 1)] - node[i - 1 + n * (j - 1)] + mixed;
+}
+
 /// The facet as seen from x.
-template <int dim, int degree>
+template <int dim, FacetType type, int degree>
 Patch<dim, degree> make_patch(const FacetNodes<dim> &nodes, const SpatialVector<dim> &x)
 {
   Patch<dim, degree> patch;
   for (int i = 0; i < patch.n_coefficients; ++i)
     patch.coefficient[i] = nodes.position[i] - x;
+  if constexpr (type == FacetType::triangle)
+    continue_to_square<degree>(patch.coefficient);
   const auto change_to_powers = [](SpatialVector<dim> *c, const int stride)
   {
     const SpatialVector<dim> begin = c[0], end = c[degree * stride];

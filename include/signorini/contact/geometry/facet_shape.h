@@ -4,6 +4,7 @@
 #include "signorini/discretization/contact_surface.h"
 
 #include <array>
+#include <vector>
 
 namespace signorini::contact
 {
@@ -19,26 +20,46 @@ struct FacetShape
   std::array<std::array<double, n_second>, Facet<dim>::max_n_nodes> second{};
 };
 
-/// Evaluates all shape functions of a facet of the given degree (1 or 2) at `xi`.
+/// Evaluates all shape functions of a facet at `xi`.
 template <int dim>
-FacetShape<dim> evaluate_facet_shape(unsigned int degree, const LocalPoint<dim> &xi);
+FacetShape<dim> evaluate_facet_shape(const FacetElement<dim> &element, const LocalPoint<dim> &xi);
 
 /// Local coordinates of node i of a facet.
 template <int dim>
-LocalPoint<dim> node_coordinates(const Facet<dim> &facet, unsigned int i);
+LocalPoint<dim> node_coordinates(const FacetElement<dim> &element, unsigned int i);
+
+/// Largest sum of the magnitudes of all shape functions: how far a point of a facet may move at most when its
+/// nodes move by one.
+template <int dim>
+constexpr double lebesgue_constant(const FacetElement<dim> &element)
+{
+  if (element.degree == 1)
+    return 1.;
+  if (element.type == FacetType::triangle)
+    return 5. / 3.;
+  return dim == 2 ? 1.25 : 1.25 * 1.25;
+}
 
 /// The piecewise linear function that is 1 at node i of a facet and 0 at its other nodes: nowhere negative,
 /// and over the nodes they sum to 1.
 template <int dim>
-double evaluate_hat_function(const Facet<dim> &facet, unsigned int i, const LocalPoint<dim> &xi);
+double evaluate_hat_function(const FacetElement<dim> &element, unsigned int i, const LocalPoint<dim> &xi);
+
+/// A straight-edged part of a facet.
+struct SubFacet
+{
+  unsigned int n_corners = 0;
+  std::array<unsigned int, 4> corner{}; ///< nodes of the facet, counter-clockwise
+};
+
+/// The parts of a facet in 3-D, with all nodes for corners: one of degree 1, four of degree 2.
+const std::vector<SubFacet> &get_sub_facets(const FacetElement<3> &element);
 
 /// Positions of one facet's nodes, in the order of `Facet::nodes`.
 template <int dim>
-struct FacetNodes
+struct FacetNodes : FacetElement<dim>
 {
-  unsigned int degree = 1;
-  unsigned int n_nodes = 0;
-  std::array<SpatialVector<dim>, Facet<dim>::max_n_nodes> position;
+  std::array<SpatialVector<dim>, FacetElement<dim>::max_n_nodes> position;
 };
 
 /// Collects the nodes of `facet` out of the positions of all surface nodes.

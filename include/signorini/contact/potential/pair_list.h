@@ -74,6 +74,11 @@ private:
   };
   using FacetPoints = std::vector<FacetPoint>;
 
+  static unsigned int index(const FacetElement<dim> &element)
+  {
+    return element.degree - 1 + (element.type == FacetType::triangle ? 2 : 0);
+  }
+
   void check_input() const;
   double compute_skin() const;
   std::vector<double> compute_reach() const;
@@ -101,7 +106,7 @@ private:
   double skin_;
   std::vector<double> reach_;
   double largest_motion_factor = 1.;
-  std::array<FacetPoints, 2> gauss_points; ///< of facets of degree 1 and 2
+  std::array<FacetPoints, 4> gauss_points; ///< of the kinds of facet that there are, at their index()
   NeighbourList<dim> neighbour_list;
 
   NodalPressures<dim> multipliers;
