@@ -82,7 +82,8 @@ public:
   /// Splits cells into simplices of `contact_volume`, which must outlive this object.
   explicit CellSplitter(ContactVolume<dim> &contact_volume) : volume(contact_volume) {}
 
-  /// Appends the simplices of a cell, each with the properties of `properties`.
+  /// Appends the simplices of a cell, each with the properties of `properties`. All nodes must be there
+  /// before, as centres are counted after them.
   void add(const Cell &cell, Simplex<dim> properties)
   {
     const unsigned int centre = centre_of({cell.begin(), cell.end()});

@@ -13,8 +13,11 @@ namespace signorini::contact
 {
 struct VolumePotentialSettings
 {
-  double penalty_factor = 10.;   ///< α > 0
-  double skin_over_height = 0.1; ///< skin of the search over the smallest height of a simplex, > 0
+  double penalty_factor = 10.; ///< α > 0
+
+  /// Skin of the search over the smallest height of a simplex, > 0. A wide one makes searches rare, but
+  /// add_row_sum_bounds() loose.
+  double skin_over_height = 0.05;
   std::vector<std::pair<unsigned int, unsigned int>> excluded_body_pairs; ///< in either order
 };
 
