@@ -156,4 +156,11 @@ Positions<dim> shifted(const Positions<dim> &x, const Positions<dim> &direction,
     result[i] += factor * direction[i];
   return result;
 }
+
+/// The closed path x + cos θ `first` + sin θ `second`.
+template <int dim>
+struct Loop
+{
+  Positions<dim> first, second;
+};
 } // namespace signorini::test

@@ -58,15 +58,19 @@ template <int dim>
 struct PotentialScene
 {
   static constexpr double overlap = .06;
+  static constexpr double reach = 1.;     ///< pairs farther apart than this need not be known
+  static constexpr double sharpness = .1; ///< the largest eigenvalue over its bound, at least
 
   ContactSurface<dim> surface;
   Positions<dim> positions;
   typename contact::ContactPotential<dim>::Obstacles obstacles;
   contact::PotentialSettings settings;
+  Target target;
   unsigned int moving_body;
   NodalPressures<dim> multipliers;
 
-  explicit PotentialScene(const Case &c, unsigned int n_faces = 2, double bend = .02) : moving_body(0)
+  explicit PotentialScene(const Case &c, unsigned int n_faces = 2, double bend = .02)
+      : target(c.target), moving_body(0)
   {
     BoxSurfaceBuilder<dim> builder;
     BoxBody<dim> lower;
@@ -91,7 +95,7 @@ struct PotentialScene
     surface = builder.surface;
     RandomVectors<dim> random(5);
     positions = shifted<dim>(surface.reference_positions, random.field(surface.n_nodes(), bend), 1.);
-    move(SpatialTensor<dim>::Identity(), SpatialVector<dim>::Zero(), c.target);
+    move(SpatialTensor<dim>::Identity(), SpatialVector<dim>::Zero());
     settings.integration = c.integration;
     settings.damping_ratio = .3;
     if (c.integration == contact::Integration::face_segments)
@@ -106,7 +110,7 @@ struct PotentialScene
   }
 
   /// Turns and shifts all there is.
-  void move(const SpatialTensor<dim> &rotation, const SpatialVector<dim> &shift, Target target)
+  void move(const SpatialTensor<dim> &rotation, const SpatialVector<dim> &shift)
   {
     for (auto &x : positions)
       x = rotation * x + shift;
@@ -146,6 +150,23 @@ struct PotentialScene
   }
 
   Positions<dim> zeros() const { return Positions<dim>(positions.size(), SpatialVector<dim>::Zero()); }
+
+  bool is_between_bodies() const { return target == Target::body; }
+
+  /// Whether pairs made anew leave the energy what it was.
+  bool may_be_renewed() const { return settings.integration == contact::Integration::face_quadrature; }
+
+  auto &parts() { return surface.facets; }
+
+  /// Leads the moving body round, by few points: each has its own kinks.
+  Loop<dim> make_loop()
+  {
+    settings.n_quadrature_points = may_be_renewed() ? 2 : 1;
+    SpatialVector<dim> upwards = .05 * SpatialVector<dim>::Unit(dim - 1);
+    upwards[dim - 2] += .01;
+    return {shifted<dim>(moved(.07 * SpatialVector<dim>::Unit(0)), positions, -1.),
+            shifted<dim>(moved(upwards), positions, -1.)};
+  }
 };
 
 template <int dim>
@@ -163,16 +184,16 @@ double norm(const Positions<dim> &u)
   return std::sqrt(dot<dim>(u, u));
 }
 
-template <int dim>
-Positions<dim> compute_forces(const contact::ContactPotential<dim> &potential, std::size_t n_nodes)
+template <int dim, template <int> class Potential>
+Positions<dim> compute_forces(const Potential<dim> &potential, std::size_t n_nodes)
 {
   Positions<dim> forces(n_nodes, SpatialVector<dim>::Zero());
   potential.add_forces(forces);
   return forces;
 }
 
-template <int dim>
-Eigen::MatrixXd compute_tangent(const contact::ContactPotential<dim> &potential, std::size_t n_nodes)
+template <int dim, template <int> class Potential>
+Eigen::MatrixXd compute_tangent(const Potential<dim> &potential, std::size_t n_nodes)
 {
   const auto size = static_cast<Eigen::Index>(dim * n_nodes);
   Eigen::MatrixXd tangent = Eigen::MatrixXd::Zero(size, size);
@@ -185,6 +206,14 @@ Eigen::MatrixXd compute_tangent(const contact::ContactPotential<dim> &potential,
                 block.template block<dim, dim>(dim * a, dim * b);
       });
   return tangent;
+}
+
+template <int dim>
+std::vector<double> bound_stiffness(const contact::ContactPotential<dim> &potential, std::size_t n_nodes)
+{
+  std::vector<double> stiffness(n_nodes, 0.), damping(n_nodes, 0.);
+  potential.add_row_sum_bounds(stiffness, damping);
+  return stiffness;
 }
 
 /// All components in one column, node by node.

@@ -1,0 +1,259 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "signorini/contact/potential/volume_potential.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+#include <stdexcept>
+
+namespace signorini::contact
+{
+namespace
+{
+/// Gap over the skin below which a pair counts as touching in the tangent.
+constexpr double verge_over_skin = 1e-8;
+
+/// Throws unless settings and simplices make sense; returns the skin.
+template <int dim>
+double check_and_measure_skin(const ContactVolume<dim> &volume, const VolumePotentialSettings &settings)
+{
+  if (!(settings.penalty_factor > 0.))
+    throw std::invalid_argument(
+        fmt::format("The penalty factor must be positive, but is {}.", settings.penalty_factor));
+  if (!(settings.skin_over_height > 0.))
+    throw std::invalid_argument(
+        fmt::format("The skin must be positive, but is {} heights.", settings.skin_over_height));
+  double height = std::numeric_limits<double>::max();
+  for (std::size_t i = 0; i < volume.simplices.size(); ++i)
+  {
+    const Simplex<dim> &simplex = volume.simplices[i];
+    if (!(simplex.height > 0.) || !(simplex.layer_thickness > 0.) || !(simplex.youngs_modulus > 0.))
+      throw std::invalid_argument(fmt::format(
+          "Simplex {} needs a positive height, layer thickness and Young's modulus, but has {}, {} and {}.",
+          i, simplex.height, simplex.layer_thickness, simplex.youngs_modulus));
+    height = std::min(height, simplex.height);
+  }
+  return volume.simplices.empty() ? 1. : settings.skin_over_height * height;
+}
+
+template <int dim>
+SimplexSearch<dim> make_search(const ContactVolume<dim> &volume, double skin,
+                               const VolumePotentialSettings &settings)
+{
+  const auto is_allowed = [excluded = settings.excluded_body_pairs](unsigned int body, unsigned int other)
+  {
+    return std::find(excluded.begin(), excluded.end(), std::pair(body, other)) == excluded.end() &&
+           std::find(excluded.begin(), excluded.end(), std::pair(other, body)) == excluded.end();
+  };
+  return SimplexSearch<dim>(volume, skin, is_allowed);
+}
+} // namespace
+
+template <int dim>
+VolumePotential<dim>::VolumePotential(const ContactVolume<dim> &contact_volume,
+                                      VolumePotentialSettings potential_settings)
+    : volume(contact_volume), settings(std::move(potential_settings)),
+      skin(check_and_measure_skin(volume, settings)), search(make_search(volume, skin, settings)),
+      shapes(volume.simplices.size()), has_pair(volume.simplices.size(), false)
+{
+}
+
+template <int dim>
+double VolumePotential<dim>::update(const Positions &positions)
+{
+  if (search.is_stale(positions))
+  {
+    search.rebuild(positions);
+    has_pair.assign(volume.simplices.size(), false);
+    for (const auto &[first, second] : search.pairs())
+      has_pair[first] = has_pair[second] = true;
+    overlaps.clear();
+  }
+  return 0.;
+}
+
+template <int dim>
+void VolumePotential<dim>::evaluate(const Positions &positions)
+{
+  const Positions vertex_positions = volume.vertex_positions(positions);
+  for (std::size_t i = 0; i < shapes.size(); ++i)
+    if (has_pair[i])
+    {
+      std::array<SpatialVector<dim>, dim + 1> x;
+      for (unsigned int a = 0; a <= dim; ++a)
+        x[a] = vertex_positions[volume.simplices[i].vertices[a]];
+      shapes[i] = make_simplex_shape<dim>(x);
+    }
+  overlaps.clear();
+  for (unsigned int pair = 0; pair < search.pairs().size(); ++pair)
+    if (const auto state = make_pair(pair).evaluate())
+      overlaps.push_back({pair, *state});
+}
+
+template <int dim>
+const Simplex<dim> &VolumePotential<dim>::simplex(unsigned int pair, unsigned int side) const
+{
+  return volume.simplices[side == 0 ? search.pairs()[pair].first : search.pairs()[pair].second];
+}
+
+template <int dim>
+unsigned int VolumePotential<dim>::vertex(unsigned int pair, unsigned int index) const
+{
+  return simplex(pair, index / (dim + 1)).vertices[index % (dim + 1)];
+}
+
+template <int dim>
+double VolumePotential<dim>::stiffness(unsigned int pair) const
+{
+  const Simplex<dim> &first = simplex(pair, 0), &second = simplex(pair, 1);
+  return settings.penalty_factor /
+         (first.layer_thickness / first.youngs_modulus + second.layer_thickness / second.youngs_modulus);
+}
+
+template <int dim>
+SimplexPair<dim> VolumePotential<dim>::make_pair(unsigned int pair) const
+{
+  const auto &[first, second] = search.pairs()[pair];
+  const double half = .5 * stiffness(pair);
+  return {{&shapes[first], &shapes[second]},
+          {half * simplex(pair, 0).height, half * simplex(pair, 1).height}};
+}
+
+template <int dim>
+double VolumePotential<dim>::energy() const
+{
+  double sum = 0.;
+  for (const Overlap &overlap : overlaps)
+    sum += overlap.state.energy;
+  return sum;
+}
+
+template <int dim>
+void VolumePotential<dim>::add_forces(std::vector<SpatialVector<dim>> &forces) const
+{
+  for (const Overlap &overlap : overlaps)
+    for (unsigned int p = 0; p < SimplexPair<dim>::n_vertices; ++p)
+      volume.for_each_node(vertex(overlap.pair, p), [&](unsigned int node, double weight)
+                           { forces[node] += weight * overlap.state.forces[p]; });
+}
+
+template <int dim>
+std::vector<unsigned int> VolumePotential<dim>::nodes_of(unsigned int pair) const
+{
+  std::vector<unsigned int> nodes;
+  for (unsigned int p = 0; p < SimplexPair<dim>::n_vertices; ++p)
+    volume.for_each_node(vertex(pair, p), [&](unsigned int node, double) { nodes.push_back(node); });
+  std::sort(nodes.begin(), nodes.end());
+  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+  return nodes;
+}
+
+template <int dim>
+void VolumePotential<dim>::for_each_tangent(
+    const std::function<void(const std::vector<unsigned int> &nodes, const Eigen::MatrixXd &block)> &add)
+    const
+{
+  typename SimplexPair<dim>::Tangent tangent;
+  Eigen::MatrixXd to_vertices, block;
+  for (unsigned int pair = 0; pair < search.pairs().size(); ++pair)
+  {
+    if (!make_pair(pair).compute_tangent(verge_over_skin * skin, tangent))
+      continue;
+    const std::vector<unsigned int> nodes = nodes_of(pair);
+    to_vertices.setZero(tangent.rows(), static_cast<Eigen::Index>(dim * nodes.size()));
+    for (unsigned int p = 0; p < SimplexPair<dim>::n_vertices; ++p)
+      volume.for_each_node(
+          vertex(pair, p),
+          [&](unsigned int node, double weight)
+          {
+            const auto place = std::lower_bound(nodes.begin(), nodes.end(), node) - nodes.begin();
+            to_vertices.template block<dim, dim>(dim * p, dim * place).diagonal().setConstant(weight);
+          });
+    block.noalias() = to_vertices.transpose() * (tangent * to_vertices);
+    add(nodes, block);
+  }
+}
+
+template <int dim>
+void VolumePotential<dim>::for_each_coupling(
+    const std::function<void(const std::vector<unsigned int> &nodes)> &add) const
+{
+  for (unsigned int pair = 0; pair < search.pairs().size(); ++pair)
+    add(nodes_of(pair));
+}
+
+template <int dim>
+void VolumePotential<dim>::add_row_sum_bounds(std::vector<double> &bounds) const
+{
+  // Σ_ab T_ia T_jb ‖K_ij‖ over all j and b is Σ_a T_ia of the row sums, for weights T that sum to 1.
+  for (unsigned int pair = 0; pair < search.pairs().size(); ++pair)
+  {
+    std::array<double, SimplexPair<dim>::n_vertices> of_vertices{};
+    make_pair(pair).add_row_sum_bounds(skin, of_vertices);
+    for (unsigned int p = 0; p < SimplexPair<dim>::n_vertices; ++p)
+      volume.for_each_node(vertex(pair, p), [&](unsigned int node, double weight)
+                           { bounds[node] += weight * of_vertices[p]; });
+  }
+}
+
+template <int dim>
+SpatialVector<dim> VolumePotential<dim>::force_on_first(const State &state)
+{
+  SpatialVector<dim> force = SpatialVector<dim>::Zero();
+  for (unsigned int a = 0; a <= dim; ++a)
+    force += state.forces[a];
+  return force;
+}
+
+template <int dim>
+ContactMeasures<dim> VolumePotential<dim>::measure() const
+{
+  ContactMeasures<dim> measures;
+  measures.resultants.assign(volume.n_bodies, SpatialVector<dim>::Zero());
+  measures.n_pairs = static_cast<unsigned int>(search.pairs().size());
+  measures.n_active = static_cast<unsigned int>(overlaps.size());
+  for (unsigned int pair = 0; pair < search.pairs().size(); ++pair)
+    measures.max_stiffness = std::max(measures.max_stiffness, stiffness(pair));
+  SpatialVector<dim> area = SpatialVector<dim>::Zero(); // of the first simplex with one other body
+  for (std::size_t i = 0; i < overlaps.size(); ++i)
+  {
+    const auto &[pair, state] = overlaps[i];
+    area += state.area;
+    if (i + 1 == overlaps.size() || &simplex(overlaps[i + 1].pair, 0) != &simplex(pair, 0) ||
+        simplex(overlaps[i + 1].pair, 1).body != simplex(pair, 1).body)
+    {
+      measures.area += area.norm();
+      area.setZero();
+    }
+    measures.resultants[simplex(pair, 0).body] += force_on_first(state);
+    measures.resultants[simplex(pair, 1).body] -= force_on_first(state);
+    for (unsigned int side = 0; side < 2; ++side)
+    {
+      measures.max_penetration = std::max(measures.max_penetration, state.depths[side]);
+      measures.max_pressure = std::max(measures.max_pressure, 2. * state.largest_potentials[side]);
+      const double relative_depth = state.depths[side] / simplex(pair, side).layer_thickness;
+      if (relative_depth > measures.max_penetration_over_thickness)
+      {
+        measures.max_penetration_over_thickness = relative_depth;
+        measures.deepest_facet = search.pairs()[pair].first;
+        measures.deepest_position = state.deepest_position;
+      }
+    }
+  }
+  return measures;
+}
+
+template <int dim>
+PairForces<dim> VolumePotential<dim>::pair_forces() const
+{
+  PairForces<dim> forces;
+  for (const auto &[pair, state] : overlaps)
+    forces.bodies.try_emplace({simplex(pair, 0).body, simplex(pair, 1).body}, SpatialVector<dim>::Zero())
+        .first->second += force_on_first(state);
+  return forces;
+}
+
+template class VolumePotential<2>;
+template class VolumePotential<3>;
+} // namespace signorini::contact
