@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include "signorini/mesh/file_mesh.h"
+
+#include <string>
+
+namespace signorini
+{
+/// The mesh in Gmsh's current model: cells by physical groups of the dimension, faces by those of one less;
+/// groups without a name are called by their number. Throws InputError for cells that are no simplices, or of
+/// a higher dimension. Needs a GmshSession. `file` is for messages.
+FileMesh take_gmsh_mesh(const std::string &file, unsigned int dimension);
+
+/// Reads a file in one of Gmsh's formats or legacy VTK.
+FileMesh read_gmsh_file(const std::string &path, unsigned int dimension);
+} // namespace signorini
