@@ -105,6 +105,8 @@ void make_coarse_body_mesh(const MeshParameters &parameters, dealii::Triangulati
   case MeshParameters::Shape::cylinder:
     make_cylinder(parameters, mesh);
     break;
+  case MeshParameters::Shape::file:
+    AssertThrow(false, dealii::ExcMessage("a mesh from a file has no hexahedra"));
   }
   name_curved_shape(parameters, mesh);
 }
@@ -124,6 +126,8 @@ double distance_to_boundary(const MeshParameters &parameters, const std::string 
     return id == 0 ? std::abs(own.norm() - parameters.radius) : std::abs(own[boundary[0] - 'x']);
   case MeshParameters::Shape::cylinder:
     break;
+  case MeshParameters::Shape::file:
+    AssertThrow(false, dealii::ExcMessage("only SurfaceDistance knows the boundaries of a file"));
   }
   if (id == 0)
     return std::abs(std::hypot(own[0], own[1]) - parameters.radius);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "signorini/mesh/abaqus_lines.h"
 
+#include "signorini/mesh/file_content.h"
+
 #include <algorithm>
 #include <cctype>
 
@@ -55,7 +57,7 @@ std::string AbaqusLine::option(const std::string &name) const
   return found == options.end() ? "" : found->second;
 }
 
-AbaqusLines::AbaqusLines(const std::string &path) : stream(path) {}
+AbaqusLines::AbaqusLines(const std::string &path) : stream(read_content(path)) {}
 
 bool AbaqusLines::next(AbaqusLine &line)
 {

@@ -10,7 +10,6 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <numeric>
 
 namespace signorini
 {
@@ -139,7 +138,7 @@ void check_doubled(const FileMesh &mesh)
   {
     std::array<unsigned int, 4> corners{};
     std::copy_n(mesh.cells[c].nodes.begin(), mesh.n_corners(), corners.begin());
-    std::sort(corners.begin(), corners.begin() + mesh.n_corners());
+    std::sort(corners.begin(), corners.end());
     order.emplace_back(corners, c);
   }
   std::sort(order.begin(), order.end());

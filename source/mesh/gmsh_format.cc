@@ -2,10 +2,10 @@
 #include "signorini/mesh/gmsh_format.h"
 
 #include "signorini/base/exceptions.h"
+#include "signorini/mesh/file_content.h"
 
 #include <fmt/format.h>
 
-#include <fstream>
 #include <iterator>
 #include <sstream>
 #include <unordered_set>
@@ -86,8 +86,7 @@ void check_node_numbers(const std::string &path, const std::vector<std::string> 
 
 void check_gmsh_format(const std::string &path)
 {
-  std::ifstream stream(path, std::ios::binary);
-  const std::string content{std::istreambuf_iterator<char>(stream), {}};
+  const std::string content = read_content(path);
   if (content.compare(0, 15, "# vtk DataFile ") == 0)
     return;
   if (content.compare(0, 11, "$MeshFormat") != 0)

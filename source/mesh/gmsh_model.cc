@@ -2,7 +2,6 @@
 #include "signorini/mesh/gmsh_model.h"
 
 #include "signorini/mesh/gmsh_format.h"
-#include "signorini/mesh/gmsh_session.h"
 
 #include <fmt/format.h>
 #include <gmsh.h>
@@ -143,6 +142,32 @@ void refuse_higher_dimension(const FileMesh &mesh)
                      });
 }
 } // namespace
+
+void make_gmsh_mesh(const GmshSession &gmsh, const std::string &file, const unsigned int dimension,
+                    const SizeField &size)
+{
+  const std::vector<std::pair<std::string, double>> options{
+      {"Mesh.MeshSizeExtendFromBoundary", 0.},
+      {"Mesh.MeshSizeFromPoints", 0.},
+      {"Mesh.MeshSizeFromCurvature", 0.},
+      {"Mesh.Algorithm3D", 1.}, // Delaunay: faster with its optimisation, and nearer to the sizes, than HXT
+      {"Mesh.Optimize", 1.},
+      {"Mesh.OptimizeThreshold", 0.5},
+      {"Mesh.SecondOrderLinear", 0.}};
+  gmsh.run(Complaint("the shape cannot be meshed")
+               .at(file)
+               .advise("try another 'Element size', or mend the shape where it was made"),
+           [&]()
+           {
+             for (const auto &[option, value] : options)
+               gmsh::option::setNumber(option, value);
+             gmsh::model::mesh::setSizeCallback(
+                 [&size](int /*dimension*/, int /*tag*/, const double x, const double y, const double z) {
+                   return size({x, y, z});
+                 });
+             gmsh::model::mesh::generate(static_cast<int>(dimension));
+           });
+}
 
 FileMesh take_gmsh_mesh(const std::string &file, const unsigned int dimension)
 {

@@ -30,30 +30,6 @@ std::string join_names(const std::vector<FileMesh::Region> &regions)
   return names.empty() ? "none: the file names no regions" : "one of " + names;
 }
 
-/// The chosen regions, in the order in which they were given; all without a choice.
-std::vector<FileMesh::Region> choose_regions(const FileMesh &mesh, const std::vector<std::string> &chosen)
-{
-  if (chosen.empty())
-    return mesh.regions;
-  std::vector<FileMesh::Region> regions;
-  std::vector<std::string> names;
-  for (const FileMesh::Region &region : mesh.regions)
-    names.push_back(region.name);
-  for (const std::string &name : chosen)
-  {
-    const auto found = std::find(names.begin(), names.end(), name);
-    if (found == names.end())
-      throw InputError(Complaint("the mesh file has no such region")
-                           .at(mesh.file)
-                           .found(name)
-                           .expected(join_names(mesh.regions))
-                           .did_you_mean(nearest_name(name, names))
-                           .advise("correct 'Regions', or leave it out to take all cells"));
-    regions.push_back(mesh.regions[found - names.begin()]);
-  }
-  return regions;
-}
-
 /// [cell] → index into `regions`; the first that has it; `none` if no region has it.
 std::vector<unsigned int> find_regions(const FileMesh &mesh, const std::vector<FileMesh::Region> &regions)
 {
@@ -106,7 +82,10 @@ void keep_cells(FileMesh &mesh, const std::vector<bool> &is_kept)
 
 FileMesh::FaceVertices sorted(FileMesh::FaceVertices face, const unsigned int dimension)
 {
-  std::sort(face.begin(), face.begin() + dimension);
+  if (dimension == 3)
+    std::sort(face.begin(), face.end());
+  else if (face[0] > face[1])
+    std::swap(face[0], face[1]);
   return face;
 }
 
@@ -283,6 +262,29 @@ void take_cells(const FileMesh &mesh, SimplexMesh &result)
                    [&vertex_of](const unsigned int node) { return vertex_of[node]; });
 }
 } // namespace
+
+std::vector<FileMesh::Region> choose_regions(const FileMesh &mesh, const std::vector<std::string> &chosen)
+{
+  if (chosen.empty())
+    return mesh.regions;
+  std::vector<FileMesh::Region> regions;
+  std::vector<std::string> names;
+  for (const FileMesh::Region &region : mesh.regions)
+    names.push_back(region.name);
+  for (const std::string &name : chosen)
+  {
+    const auto found = std::find(names.begin(), names.end(), name);
+    if (found == names.end())
+      throw InputError(Complaint("the mesh file has no such region")
+                           .at(mesh.file)
+                           .found(name)
+                           .expected(join_names(mesh.regions))
+                           .did_you_mean(nearest_name(name, names))
+                           .advise("correct 'Regions', or leave it out to take all cells"));
+    regions.push_back(mesh.regions[found - names.begin()]);
+  }
+  return regions;
+}
 
 SimplexMesh make_simplex_mesh(const FileMesh &file_mesh, const std::vector<std::string> &chosen)
 {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
-#include <fstream>
 #include <map>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -25,12 +25,13 @@ struct AbaqusLine
 class AbaqusLines
 {
 public:
+  /// Throws FileError.
   explicit AbaqusLines(const std::string &path);
   /// False at the end of the file.
   bool next(AbaqusLine &line);
 
 private:
-  std::ifstream stream;
+  std::istringstream stream;
   int number = 0;
 };
 

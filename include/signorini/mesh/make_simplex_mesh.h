@@ -9,6 +9,10 @@
 
 namespace signorini
 {
+/// The regions of these names, in their order; all for no names. Throws InputError for a name that the file
+/// does not have.
+std::vector<FileMesh::Region> choose_regions(const FileMesh &mesh, const std::vector<std::string> &chosen);
+
 /// Checks the chosen regions (none: all cells) and puts them in order: nodes that no cell has are left out, a
 /// block of cells all of which are inverted is turned, outer faces are found and named. Throws InputError for
 /// anything that is no sound mesh.
