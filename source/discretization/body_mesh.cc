@@ -106,7 +106,7 @@ void make_coarse_body_mesh(const MeshParameters &parameters, dealii::Triangulati
     make_cylinder(parameters, mesh);
     break;
   case MeshParameters::Shape::file:
-    AssertThrow(false, dealii::ExcInternalError("files hold no hexahedra"));
+    AssertThrow(false, dealii::ExcMessage("a mesh from a file has no hexahedra"));
   }
   name_curved_shape(parameters, mesh);
 }
@@ -127,7 +127,7 @@ double distance_to_boundary(const MeshParameters &parameters, const std::string 
   case MeshParameters::Shape::cylinder:
     break;
   case MeshParameters::Shape::file:
-    AssertThrow(false, dealii::ExcInternalError("files have no such formula"));
+    AssertThrow(false, dealii::ExcMessage("only SurfaceDistance knows the boundaries of a file"));
   }
   if (id == 0)
     return std::abs(std::hypot(own[0], own[1]) - parameters.radius);

@@ -63,7 +63,9 @@ void declare_support(Declarations &declarations, const DeclarationScope &scope, 
   SubsectionDeclaration support(
       declarations, path,
       "Prescribed displacement of the boundary of this name (box: left, right, front, back, "
-      "bottom, top; ball: surface, and x, y, z for the cuts; cylinder: side, bottom, top).");
+      "bottom, top; ball: surface, and x, y, z for the cuts; cylinder: side, bottom, top; file: "
+      "physical groups, surfaces, sets of faces and of nodes, and rest; STEP, BREP: surface_1, "
+      "surface_2, …; STL: surface).");
   for (const std::string component : {"x", "y", "z"})
     if (component != "z" || scope.dimension == 3)
       support.add(component, any_text(), "", "m",

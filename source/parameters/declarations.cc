@@ -159,7 +159,13 @@ std::string deciding_choice(const ParameterText &text, const Declarations &in_us
 {
   for (const std::string key : {"Shape", "Case"})
     if (const Declaration *const declaration = in_use.find(path, key))
-      return fmt::format("{} = {}", key, text.value(path, key, declaration->default_value));
+    {
+      std::string choice = fmt::format("{} = {}", key, text.value(path, key, declaration->default_value));
+      for (const std::string further : {"Cell type", "File"})
+        if (const ParameterEntry *const entry = text.find(path, further))
+          choice += fmt::format(", {} = {}", further, entry->value);
+      return choice;
+    }
   if (path == "Adaptivity")
     return in_use.has_subsection("Explicit") ? "'Explicit'" : "'Quasi-static'";
   return "the dimension";

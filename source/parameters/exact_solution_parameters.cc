@@ -75,7 +75,7 @@ const std::vector<ExactSolutionCase> &exact_solutions()
       {"Bounce",
        {},
        {explicit_run(), number_of_bodies(1), boxes_only(), number_of_obstacles(1), planes_only(),
-        contact_damping(), no_grading()},
+        contact_damping(), hexahedra_only(), no_grading()},
        {"restitution", "impulse of the obstacle", "dissipated energy"}},
       {"Displacement",
        {},

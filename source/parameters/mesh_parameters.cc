@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "signorini/parameters/mesh_parameters.h"
 
+#include "signorini/mesh/geometry_file.h"
+#include "signorini/mesh/read_mesh_file.h"
 #include "signorini/parameters/section_reader.h"
 #include "signorini/parameters/strings.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
+#include <memory>
 
 namespace signorini
 {
@@ -16,8 +20,35 @@ const NameTable<MeshParameters::Shape> &shapes()
 {
   static const NameTable<MeshParameters::Shape> table{{"box", MeshParameters::Shape::box},
                                                       {"ball", MeshParameters::Shape::ball},
-                                                      {"cylinder", MeshParameters::Shape::cylinder}};
+                                                      {"cylinder", MeshParameters::Shape::cylinder},
+                                                      {"file", MeshParameters::Shape::file}};
   return table;
+}
+
+const NameTable<MeshParameters::CellType> &cell_types(const unsigned int dimension)
+{
+  using CellType = MeshParameters::CellType;
+  static const NameTable<CellType> solids{{"hexahedra", CellType::hexahedra},
+                                          {"tetrahedra", CellType::tetrahedra}};
+  static const NameTable<CellType> plane{{"quadrilaterals", CellType::hexahedra},
+                                         {"triangles", CellType::tetrahedra}};
+  return dimension == 3 ? solids : plane;
+}
+
+/// Which entries a mesh has.
+enum class MeshKind
+{
+  hexahedra,
+  generated_tetrahedra,
+  mesh_file
+};
+
+MeshKind kind_of(const ParameterText &text, const unsigned int dimension, const std::string &path)
+{
+  if (text.value(path, "Shape") == "file")
+    return is_geometry_file(text.value(path, "File")) ? MeshKind::generated_tetrahedra : MeshKind::mesh_file;
+  const bool has_tetrahedra = text.value(path, "Cell type") == cell_types(dimension)[1].first;
+  return has_tetrahedra ? MeshKind::generated_tetrahedra : MeshKind::hexahedra;
 }
 
 const NameTable<MeshParameters::Part> &parts()
@@ -69,7 +100,8 @@ void read_box(const SectionReader &section, const unsigned int dimension, MeshPa
 {
   mesh.lower_corner = section.vector("Lower corner");
   mesh.upper_corner = section.vector("Upper corner");
-  mesh.cells = section.integers("Cells");
+  if (mesh.cell_type == MeshParameters::CellType::hexahedra)
+    mesh.cells = section.integers("Cells");
   for (unsigned int c = 0; c < dimension; ++c)
     if (mesh.lower_corner[c] >= mesh.upper_corner[c])
       throw InputError(
@@ -82,80 +114,20 @@ void read_box(const SectionReader &section, const unsigned int dimension, MeshPa
               .advise("exchange or correct the corners"));
 }
 
-/// Points on the axes of a part of a ball.
-std::vector<Triple> ball_points(const MeshParameters &mesh, const unsigned int dimension)
+void declare_shape(SubsectionDeclaration &mesh, const DeclarationScope &scope, const std::string &path,
+                   const bool has_cells)
 {
-  std::vector<Triple> points;
-  for (unsigned int c = 0; c < dimension; ++c)
-  {
-    Triple point{};
-    point[c] = mesh.radius;
-    points.push_back(point);
-    const bool cut = mesh.part == MeshParameters::Part::orthant ||
-                     (mesh.part == MeshParameters::Part::half && c + 1 == dimension);
-    point[c] = -mesh.radius;
-    if (!cut)
-      points.push_back(point);
-  }
-  return points;
-}
-
-std::vector<Triple> cylinder_points(const MeshParameters &mesh)
-{
-  std::vector<Triple> points;
-  for (const double z : {-mesh.length / 2, mesh.length / 2})
-  {
-    for (const double sign : {-1., 1.})
-    {
-      points.push_back({sign * mesh.radius, 0., z});
-      points.push_back({0., sign * mesh.radius, z});
-    }
-  }
-  return points;
-}
-
-std::vector<Triple> box_points(const MeshParameters &mesh, const unsigned int dimension)
-{
-  std::vector<Triple> points;
-  for (unsigned int corner = 0; corner < (1u << dimension); ++corner)
-  {
-    Triple point{};
-    for (unsigned int c = 0; c < dimension; ++c)
-      point[c] = (corner >> c & 1u) != 0 ? mesh.upper_corner[c] : mesh.lower_corner[c];
-    points.push_back(point);
-  }
-  return points;
-}
-
-/// The component and the value that all points of a plane boundary share; nothing for a curved one.
-std::optional<std::pair<unsigned int, double>>
-plane_of(const MeshParameters &mesh, const unsigned int dimension, const std::string &boundary)
-{
-  const unsigned int last = dimension - 1;
-  if (mesh.shape == MeshParameters::Shape::ball)
-  {
-    const std::size_t component = std::string("xyz").find(boundary);
-    return component == std::string::npos
-               ? std::nullopt
-               : std::optional(std::pair(static_cast<unsigned int>(component), 0.));
-  }
-  if (mesh.shape == MeshParameters::Shape::cylinder)
-    return boundary == "side" ? std::nullopt
-                              : std::optional(std::pair(2u, (boundary == "top" ? 0.5 : -0.5) * mesh.length));
-  const unsigned int component = boundary == "left" || boundary == "right"   ? 0u
-                                 : boundary == "front" || boundary == "back" ? 1u
-                                                                             : last;
-  const bool upper = boundary == "right" || boundary == "back" || boundary == "top";
-  return std::pair(component, upper ? mesh.upper_corner[component] : mesh.lower_corner[component]);
-}
-} // namespace
-
-void declare_mesh(Declarations &declarations, const DeclarationScope &scope, const std::string &path)
-{
-  SubsectionDeclaration mesh(declarations, path, "A generated mesh of hexahedra, or quadrilaterals in 2-D.");
   const auto shape_is = [&](const std::string &shape) { return scope.chosen(path, "Shape", shape, "box"); };
-  mesh.add("Shape", one_of(names_in(shapes())), "box", "",
-           "Box; ball centred at the origin; cylinder centred at the origin around the z axis (3-D only).");
+  if (shape_is("file"))
+  {
+    mesh.add_required(
+        "File", any_text(), "",
+        fmt::format("File: a mesh ({}) or a shape ({}; of STEP the unit is heeded, and becomes m); a "
+                    "relative path begins at the folder of the parameter file.",
+                    join(mesh_file_endings(), ", "), join(geometry_file_endings(), ", ")));
+    mesh.add("Regions", any_text(), "", "",
+             "File: names of the regions that are the body, separated by commas; absent: all of it.");
+  }
   if (shape_is("ball"))
     mesh.add("Part", one_of(names_in(parts())), "whole", "",
              "Ball: all of it, the half with last coordinate ≥ 0, or the part with all coordinates ≥ 0.");
@@ -163,15 +135,103 @@ void declare_mesh(Declarations &declarations, const DeclarationScope &scope, con
   {
     mesh.add("Lower corner", scope.vector(), scope.components("0, 0, 0"), "m", "Box: smallest coordinates.");
     mesh.add("Upper corner", scope.vector(), scope.components("1, 1, 1"), "m", "Box: largest coordinates.");
-    mesh.add("Cells", list_of(integer_from(1, 1000000), scope.dimension, scope.dimension),
-             scope.components("1, 1, 1"), "", "Box: coarse cells in each direction.");
+    if (has_cells)
+      mesh.add("Cells", list_of(integer_from(1, 1000000), scope.dimension, scope.dimension),
+               scope.components("1, 1, 1"), "", "Box of hexahedra: coarse cells in each direction.");
   }
   if (shape_is("ball") || shape_is("cylinder"))
     mesh.add("Radius", positive_length(), "1", "m", "Ball and cylinder: radius.");
   if (shape_is("cylinder"))
     mesh.add("Length", positive_length(), "1", "m", "Cylinder: length along the z axis.");
-  mesh.add("Refinements", integer_from(0, 12), "0", "",
-           "How often all coarse cells are halved in each direction.");
+}
+
+/// The path as it can be opened: relative ones begin at the folder of the file in which they stand.
+std::string find_path(const ParameterText &text, const std::string &path)
+{
+  const ParameterEntry &entry = *text.find(path, "File");
+  const std::filesystem::path parameter_file = entry.line > 0 ? entry.file : text.file;
+  return (parameter_file.parent_path() / entry.value).string();
+}
+
+void read_file(const ParameterText &text, const SectionReader &section, const unsigned int dimension,
+               MeshParameters &mesh)
+{
+  mesh.file = find_path(text, section.path());
+  mesh.regions = split(section.value("Regions"), ',');
+  if (is_mesh_file(mesh.file))
+    mesh.mesh_of_file =
+        std::make_shared<const SimplexMesh>(read_mesh_file(mesh.file, dimension, mesh.regions));
+  else if (is_geometry_file(mesh.file))
+    mesh.surface_of_file =
+        std::make_shared<const SimplexMesh>(read_geometry_file(mesh.file, dimension, mesh.regions));
+  else
+    throw InputError(section.complain("File", "the ending of the name tells no format that is read")
+                         .expected(join(mesh_file_endings(), ", ") + " (meshes), " +
+                                   join(geometry_file_endings(), ", ") + " (shapes)")
+                         .advise("convert the file, or correct the ending of its name"));
+}
+
+MeshParameters::CellType read_cell_type(const SectionReader &section, const MeshParameters::Shape shape,
+                                        const unsigned int dimension)
+{
+  const NameTable<MeshParameters::CellType> &table = cell_types(dimension);
+  if (shape != MeshParameters::Shape::file)
+    return section.choice("Cell type", table);
+  if (section.given("Cell type") && section.choice("Cell type", table) == MeshParameters::CellType::hexahedra)
+    throw InputError(section.complain("Cell type", fmt::format("a mesh from a file has {}", table[1].first))
+                         .expected(table[1].first)
+                         .advise("remove 'Cell type', or generate a box, ball or cylinder"));
+  return MeshParameters::CellType::tetrahedra;
+}
+
+void read_shape(const ParameterText &text, const SectionReader &section, const unsigned int dimension,
+                MeshParameters &mesh)
+{
+  switch (mesh.shape)
+  {
+  case MeshParameters::Shape::file:
+    read_file(text, section, dimension, mesh);
+    break;
+  case MeshParameters::Shape::box:
+    read_box(section, dimension, mesh);
+    break;
+  case MeshParameters::Shape::cylinder:
+    mesh.radius = section.number("Radius");
+    mesh.length = section.number("Length");
+    break;
+  case MeshParameters::Shape::ball:
+    mesh.radius = section.number("Radius");
+    mesh.part = section.choice("Part", parts());
+    break;
+  }
+}
+} // namespace
+
+void declare_mesh(Declarations &declarations, const DeclarationScope &scope, const std::string &path)
+{
+  const bool all = scope.extent == Extent::everything;
+  const MeshKind kind = kind_of(scope.text, scope.dimension, path);
+  const std::vector<std::string> types = names_in(cell_types(scope.dimension));
+  SubsectionDeclaration mesh(
+      declarations, path,
+      "A generated mesh of hexahedra or tetrahedra (in 2-D quadrilaterals or triangles), or one "
+      "of tetrahedra (triangles) from a file.");
+  mesh.add(
+      "Shape", one_of(names_in(shapes())), "box", "",
+      "Box; ball centred at the origin; cylinder centred at the origin around the z axis (3-D only); or what "
+      "stands in a file.");
+  mesh.add("Cell type", one_of(types), types[!all && scope.chosen(path, "Shape", "file", "box") ? 1 : 0], "",
+           "What the mesh is made of; in 2-D quadrilaterals or triangles. From a file always tetrahedra "
+           "(triangles).");
+  declare_shape(mesh, scope, path, all || kind == MeshKind::hexahedra);
+  if (all || kind == MeshKind::generated_tetrahedra)
+    mesh.add_required(
+        "Element size", positive_length(), "m",
+        "Tetrahedra, but not from mesh files: length of their edges, before Refinements and Grading.");
+  if (all || kind != MeshKind::mesh_file)
+    mesh.add("Refinements", integer_from(0, 12), "0", "",
+             "How often all coarse cells are halved in each direction; of tetrahedra: Element size. Not of "
+             "mesh files.");
   if (scope.includes(join_path(path, "Grading")))
     declare_grading(declarations, scope, join_path(path, "Grading"));
 }
@@ -184,53 +244,26 @@ MeshParameters read_mesh(const ParameterText &text, const Declarations &in_use, 
   mesh.shape = section.choice("Shape", shapes());
   if (mesh.shape == MeshParameters::Shape::cylinder && dimension == 2)
     throw InputError(section.complain("Shape", "a cylinder needs three dimensions")
-                         .expected("box or ball in two dimensions")
+                         .expected("box, ball or file in two dimensions")
                          .advise("set Dimension = 3, or use a ball: in two dimensions it is a disk"));
-  if (mesh.shape == MeshParameters::Shape::box)
-    read_box(section, dimension, mesh);
-  else
-    mesh.radius = section.number("Radius");
-  if (mesh.shape == MeshParameters::Shape::ball)
-    mesh.part = section.choice("Part", parts());
-  if (mesh.shape == MeshParameters::Shape::cylinder)
-    mesh.length = section.number("Length");
-  mesh.refinements = section.integer("Refinements");
+  mesh.cell_type = read_cell_type(section, mesh.shape, dimension);
+  read_shape(text, section, dimension, mesh);
   const std::string grading = join_path(path, "Grading");
+  if (mesh.mesh_of_file)
+  {
+    if (text.find_subsection(grading) != nullptr)
+      throw InputError(
+          SectionReader(text, in_use, grading, dimension)
+              .complain("a mesh from a file cannot be graded")
+              .found(fmt::format("File = {}", section.value("File")))
+              .advise("remove 'Grading', and make the mesh as fine as is needed where it was made"));
+    return mesh;
+  }
+  if (mesh.cell_type == MeshParameters::CellType::tetrahedra)
+    mesh.element_size = section.number("Element size");
+  mesh.refinements = section.integer("Refinements");
   if (text.find_subsection(grading) != nullptr)
     mesh.grading = read_grading(SectionReader(text, in_use, grading, dimension), mesh, dimension);
   return mesh;
-}
-
-std::vector<std::string> boundary_names(const MeshParameters &mesh, const unsigned int dimension)
-{
-  switch (mesh.shape)
-  {
-  case MeshParameters::Shape::cylinder:
-    return {"side", "bottom", "top"};
-  case MeshParameters::Shape::ball:
-    if (mesh.part == MeshParameters::Part::whole)
-      return {"surface"};
-    if (mesh.part == MeshParameters::Part::half)
-      return {"surface", dimension == 3 ? "z" : "y"};
-    return dimension == 3 ? std::vector<std::string>{"surface", "x", "y", "z"}
-                          : std::vector<std::string>{"surface", "x", "y"};
-  default:
-    return dimension == 3 ? std::vector<std::string>{"left", "right", "front", "back", "bottom", "top"}
-                          : std::vector<std::string>{"left", "right", "bottom", "top"};
-  }
-}
-
-std::vector<Triple> boundary_points(const MeshParameters &mesh, const unsigned int dimension,
-                                    const std::string &boundary)
-{
-  std::vector<Triple> points = mesh.shape == MeshParameters::Shape::box    ? box_points(mesh, dimension)
-                               : mesh.shape == MeshParameters::Shape::ball ? ball_points(mesh, dimension)
-                                                                           : cylinder_points(mesh);
-  if (const auto plane = plane_of(mesh, dimension, boundary))
-    points.erase(std::remove_if(points.begin(), points.end(),
-                                [&plane](const Triple &point)
-                                { return point[plane->first] != plane->second; }),
-                 points.end());
-  return points;
 }
 } // namespace signorini

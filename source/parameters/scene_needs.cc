@@ -263,6 +263,18 @@ SceneNeed boxes_only()
       });
 }
 
+SceneNeed hexahedra_only()
+{
+  return every_body(
+      "meshes of hexahedra (quadrilaterals)",
+      [](const ParameterText &text, const std::string &path, const BodyParameters &body) -> MaybeFault
+      {
+        if (body.mesh.cell_type == MeshParameters::CellType::hexahedra)
+          return {};
+        return fault_of_entry(text, path + "/Mesh", "Cell type", "hexahedra");
+      });
+}
+
 SceneNeed linear_elastic_bodies()
 {
   return every_body(

@@ -16,9 +16,44 @@ namespace signorini
 {
 namespace
 {
+double extent_of_surface(const SimplexMesh &surface, unsigned int direction)
+{
+  const auto [least, greatest] = std::minmax_element(surface.vertices.begin(), surface.vertices.end(),
+                                                     [direction](const Triple &a, const Triple &b)
+                                                     { return a[direction] < b[direction]; });
+  return (*greatest)[direction] - (*least)[direction];
+}
+
+/// Volume (area in 2-D) before placement, of a ball or cylinder that of the cube around it, of a file that of
+/// the box.
+double rough_volume(const MeshParameters &mesh, unsigned int dimension)
+{
+  if (mesh.shape == MeshParameters::Shape::cylinder)
+    return 4. * mesh.radius * mesh.radius * mesh.length;
+  double volume = 1.;
+  for (unsigned int d = 0; d < dimension; ++d)
+  {
+    const bool is_halved = mesh.part == MeshParameters::Part::orthant ||
+                           (mesh.part == MeshParameters::Part::half && d + 1 == dimension);
+    if (mesh.shape == MeshParameters::Shape::box)
+      volume *= mesh.upper_corner[d] - mesh.lower_corner[d];
+    else if (mesh.shape == MeshParameters::Shape::ball)
+      volume *= (is_halved ? 1. : 2.) * mesh.radius;
+    else
+      volume *= extent_of_surface(*mesh.surface_of_file, d);
+  }
+  return volume;
+}
+
+/// Cells before refinements and grading.
 double n_coarse_cells(const MeshParameters &mesh, unsigned int dimension)
 {
   const bool is_solid = dimension == 3;
+  if (mesh.mesh_of_file)
+    return static_cast<double>(mesh.mesh_of_file->cells.size());
+  // Measured: so many cells fill a cube, or a square, of the element size.
+  if (mesh.cell_type == MeshParameters::CellType::tetrahedra)
+    return (is_solid ? 4.6 : 2.3) * rough_volume(mesh, dimension) / std::pow(mesh.element_size, dimension);
   if (mesh.shape == MeshParameters::Shape::cylinder)
     return 10.;
   if (mesh.shape == MeshParameters::Shape::box)
@@ -32,22 +67,6 @@ double n_coarse_cells(const MeshParameters &mesh, unsigned int dimension)
   default:
     return is_solid ? 4. : 3.;
   }
-}
-
-/// Volume (area in 2-D) before placement, of a ball or cylinder that of the cube around it.
-double rough_volume(const MeshParameters &mesh, unsigned int dimension)
-{
-  if (mesh.shape == MeshParameters::Shape::cylinder)
-    return 4. * mesh.radius * mesh.radius * mesh.length;
-  double volume = 1.;
-  for (unsigned int d = 0; d < dimension; ++d)
-  {
-    const bool is_halved = mesh.part == MeshParameters::Part::orthant ||
-                           (mesh.part == MeshParameters::Part::half && d + 1 == dimension);
-    volume *= mesh.shape == MeshParameters::Shape::box ? mesh.upper_corner[d] - mesh.lower_corner[d]
-                                                       : (is_halved ? 1. : 2.) * mesh.radius;
-  }
-  return volume;
 }
 
 /// Every level of a grading splits the cells within its distance of a corner, or of one face.
@@ -68,6 +87,16 @@ double estimate_cells(const MeshParameters &mesh, unsigned int dimension)
     cell_volume /= std::pow(2., dimension);
   }
   return n_cells;
+}
+
+/// Of a single body, which shares no node with others.
+double estimate_nodes(const MeshParameters &mesh, double n_cells, unsigned int dimension, unsigned int degree)
+{
+  if (mesh.cell_type == MeshParameters::CellType::hexahedra)
+    return std::pow(std::pow(n_cells, 1. / dimension) * degree + 1., dimension);
+  if (dimension == 3)
+    return n_cells * (degree == 1 ? 0.2 : 1.45);
+  return n_cells * (degree == 1 ? 0.5 : 2.);
 }
 
 /// That of the machines on which the ranks run, each counted once [bytes].
@@ -100,7 +129,7 @@ SizeEstimate estimate_size(const Parameters &parameters, unsigned int n_ranks)
     most_cells = std::max(most_cells, n_cells);
     n_coarse += n_coarse_cells(body.mesh, dim);
     size.n_cells += n_cells;
-    size.n_dofs += dim * std::pow(std::pow(n_cells, 1. / dim) * degree + 1., dim);
+    size.n_dofs += dim * estimate_nodes(body.mesh, n_cells, dim, degree);
   }
   size.memory = n_ranks * (bytes_of_program + bytes_of_coarse_cell * n_coarse) +
                 size.n_cells * (bytes_of_cell + 1.5 * sizeof(double) * dim * n_cell_nodes * n_cell_nodes);
@@ -124,8 +153,10 @@ void check_size(const ParameterText &text, const Parameters &parameters, const M
                           size.n_cells, size.n_dofs, size.memory / gigabyte))
           .expected(fmt::format("{:.3g} GB on all ranks together", available / gigabyte))
           .advise(fmt::format(
-              "lower Cells, Refinements or Grading/Levels of body '{}', which has the most cells, "
-              "or Degree",
+              "{} Refinements or Grading/Levels of body '{}', which has the most cells, or Degree",
+              size.largest->mesh.cell_type == MeshParameters::CellType::hexahedra
+                  ? "lower Cells,"
+                  : "raise Element size, or lower",
               size.largest->name)));
 }
 } // namespace signorini

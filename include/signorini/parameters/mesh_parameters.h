@@ -12,7 +12,7 @@ namespace signorini
 /// Declare `Mesh` of a body, with the keys that belong to its shape.
 void declare_mesh(Declarations &declarations, const DeclarationScope &scope, const std::string &path);
 
-/// Read and check it. Throws InputError.
+/// Read and check it, with the file that it names. Throws InputError, FileError.
 MeshParameters read_mesh(const ParameterText &text, const Declarations &in_use, const std::string &path,
                          unsigned int dimension);
 

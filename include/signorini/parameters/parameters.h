@@ -22,7 +22,7 @@ namespace signorini
 ///
 /// Boundaries are named after the shape: box: left, right (−x, +x), front, back (−y, +y; in 2-D bottom, top
 /// are −y, +y), bottom, top (−z, +z). ball: surface, and for parts of a ball x, y, z for the cuts x = 0, y =
-/// 0, z = 0. cylinder (axis z; 3-D only): side, bottom, top.
+/// 0, z = 0. cylinder (axis z; 3-D only): side, bottom, top. file: see read_mesh_file() and load_geometry().
 struct MeshParameters
 {
   enum class CellType
@@ -61,10 +61,13 @@ struct MeshParameters
   std::array<unsigned int, 3> cells{1, 1, 1}; ///< box: coarse cells a direction
   double radius = 1.;                         ///< ball, cylinder [m]
   double length = 1.;                         ///< cylinder [m]
-  double element_size = 0.; ///< generated tetrahedra: length of edges, halved by every refinement [m]
-  std::string file;         ///< path as given
+  double element_size = 0.;         ///< generated tetrahedra: length of edges, halved by every refinement [m]
+  std::string file;                 ///< as it can be opened from the working directory
+  std::vector<std::string> regions; ///< of the file, those that are the body; none: all
   std::shared_ptr<const SimplexMesh> mesh_of_file; ///< checked; null unless the shape is that of a mesh file
-  unsigned int refinements = 0;                    ///< global refinements of the coarse mesh
+  std::shared_ptr<const SimplexMesh>
+      surface_of_file;          ///< faces only; null unless Gmsh shall mesh the file's shape
+  unsigned int refinements = 0; ///< global refinements of the coarse mesh
   std::optional<Grading> grading;
 };
 

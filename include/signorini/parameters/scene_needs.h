@@ -36,6 +36,8 @@ SceneNeed number_of_obstacles(unsigned int number);
 SceneNeed one_touching_pair();
 SceneNeed planes_only();
 SceneNeed boxes_only();
+/// Quadrilaterals in 2-D.
+SceneNeed hexahedra_only();
 SceneNeed linear_elastic_bodies();
 /// No body is rotated or scaled.
 SceneNeed shifts_only();

@@ -2,6 +2,7 @@
 #include "signorini/parameters/read_parameters.h"
 
 #include "signorini/base/exceptions.h"
+#include "signorini/parameters/mesh_parameters.h"
 #include "signorini/parameters/print_parameters.h"
 
 #include <gtest/gtest.h>
@@ -57,6 +58,41 @@ TEST(ReadParameters, FillsTheStructs)
             std::pair(std::string("block"), std::string("floor")));
   EXPECT_EQ(parameters.contact.value().damping.value().damping_ratio, 0.1);
   EXPECT_EQ(std::get<ExplicitParameters>(parameters.solver).end_time, 0.1);
+}
+
+TEST(ReadParameters, FilesAreFoundBesideTheParameterFile)
+{
+  const std::filesystem::path folder = std::filesystem::temp_directory_path() / "signorini_beside";
+  std::filesystem::create_directories(folder);
+  std::ofstream(folder / "two.inp")
+      << "*NODE\n1, 0, 0, 0\n2, 1, 0, 0\n3, 0, 1, 0\n4, 0, 0, 1\n5, 1, 1, 1\n"
+         "*ELEMENT, TYPE=C3D4, ELSET=a\n1, 1, 2, 3, 4\n"
+         "*ELEMENT, TYPE=C3D4, ELSET=b\n2, 2, 3, 4, 5\n*SURFACE, NAME=floor\n1, S1\n";
+  ParameterText text = read_parameter_text(data_file("minimal.prm"));
+  text.file = (folder / "x.prm").string();
+  remove_subsection(text, "Body block/Support top");
+  for (const char *const entry : {"Shape=file", "File=two.inp", "Regions=a"})
+    apply_override(text, "Body block/Mesh/" + std::string(entry));
+  apply_override(text, "Body block/Support floor/z=0");
+  const MeshParameters mesh = read_parameters(text).bodies.at(0).mesh;
+  EXPECT_EQ(mesh.cell_type, MeshParameters::CellType::tetrahedra);
+  ASSERT_TRUE(mesh.mesh_of_file);
+  EXPECT_EQ(mesh.mesh_of_file->cells.size(), 1u);
+  EXPECT_EQ(boundary_names(mesh, 3), (std::vector<std::string>{"floor", "rest"}));
+  EXPECT_EQ(boundary_points(mesh, 3, "floor").size(), 3u);
+  EXPECT_EQ(boundary_points(mesh, 3, "rest").size(), 4u);
+  std::filesystem::remove_all(folder);
+}
+
+TEST(ReadParameters, TetrahedraHaveAnElementSize)
+{
+  ParameterText text = read_parameter_text(data_file("minimal.prm"));
+  apply_override(text, "Body block/Mesh/Cell type=tetrahedra");
+  EXPECT_THROW(read_parameters(text), InputError);
+  apply_override(text, "Body block/Mesh/Element size=0.25");
+  const MeshParameters mesh = read_parameters(text).bodies.at(0).mesh;
+  EXPECT_EQ(mesh.element_size, .25);
+  EXPECT_EQ(mesh.cell_type, MeshParameters::CellType::tetrahedra);
 }
 
 TEST(ReadParameters, DefaultsAreThoseOfTheStructs)

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include "signorini/discretization/size_field.h"
+#include "signorini/mesh/simplex_mesh.h"
+#include "signorini/parameters/parameters.h"
+
+namespace signorini
+{
+/// A mesh of tetrahedra (triangles) of a box, ball or cylinder, or of the shape in a file, made by Gmsh: the
+/// same on every rank and in every run. Boundaries are named as boundary_names() says.
+///
+/// `size`: length of edges [m] at a point in own coordinates, all finite and positive. `degree` 2: edges at
+/// curved boundaries have their middle nodes there, but for cells that this would fold: their edges stay
+/// straight. Throws InputError if Gmsh cannot mesh the shape, FileError.
+SimplexMesh generate_simplex_mesh(const MeshParameters &parameters, unsigned int dimension,
+                                  unsigned int degree, const SizeField &size);
+
+/// The mesh of a body of tetrahedra as its parameters say: that of its mesh file, or a generated one.
+SimplexMesh make_simplex_body_mesh(const MeshParameters &parameters, unsigned int dimension,
+                                   unsigned int degree);
+} // namespace signorini
