@@ -1,12 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "potential_scene.h"
-#include "volume_scene.h"
+// The laws that every contact potential obeys.
+#include "law_suites.h"
 
 #include <Eigen/Eigenvalues>
-#include <gtest/gtest.h>
-
-#include <sstream>
-#include <variant>
 
 using namespace signorini;
 using namespace signorini::contact;
@@ -15,49 +11,6 @@ using namespace signorini::test;
 namespace
 {
 constexpr double pi = 3.14159265358979323846;
-
-template <int dim, typename... Options>
-auto make_scene(const Case &c, Options... options)
-{
-  return PotentialScene<dim>(c, options...);
-}
-
-template <int dim, typename... Options>
-auto make_scene(const VolumeCase &c, Options... options)
-{
-  return VolumeScene<dim>(c, options...);
-}
-
-template <typename AnyCase, typename Check, typename... Options>
-void check_scene(const AnyCase &c, const Check &check, Options... options)
-{
-  if (c.dim == 2)
-    check(make_scene<2>(c, options...), std::integral_constant<int, 2>());
-  else
-    check(make_scene<3>(c, options...), std::integral_constant<int, 3>());
-}
-
-/// Laws of all potentials, each checked on every scene of every potential.
-class ContactLaws : public testing::TestWithParam<std::variant<Case, VolumeCase>>
-{
-protected:
-  template <typename Check, typename... Options>
-  void on_scene(const Check &check, Options... options) const
-  {
-    std::visit([&](const auto &c) { check_scene(c, check, options...); }, GetParam());
-  }
-};
-
-/// Laws of what only the surface potential has, on its scenes: dimension × degree × target × integration.
-class SurfaceLaws : public testing::TestWithParam<Case>
-{
-protected:
-  template <typename Check>
-  void on_scene(const Check &check) const
-  {
-    check_scene(GetParam(), check);
-  }
-};
 
 std::vector<Case> make_cases()
 {
@@ -97,23 +50,6 @@ std::vector<std::variant<Case, VolumeCase>> make_all_cases()
   all.insert(all.end(), volume.begin(), volume.end());
   return all;
 }
-
-struct NameCase
-{
-  std::string operator()(const testing::TestParamInfo<Case> &info) const { return name(info.param); }
-  std::string operator()(const testing::TestParamInfo<ContactLaws::ParamType> &info) const
-  {
-    return std::visit([](const auto &c) { return name(c); }, info.param);
-  }
-
-  template <typename AnyCase>
-  static std::string name(const AnyCase &c)
-  {
-    std::ostringstream stream;
-    stream << c;
-    return stream.str();
-  }
-};
 
 INSTANTIATE_TEST_SUITE_P(All, ContactLaws, testing::ValuesIn(make_all_cases()), NameCase());
 INSTANTIATE_TEST_SUITE_P(All, SurfaceLaws, testing::ValuesIn(make_cases()), NameCase());
@@ -186,20 +122,6 @@ TEST_P(ContactLaws, TangentIsTheDerivativeOfForces)
       });
 }
 
-/// Sum of the forces, and of their moments about the origin (entries of the skew part of Σ x fᵀ).
-template <int dim>
-double measure_imbalance(const Positions<dim> &x, const Positions<dim> &forces)
-{
-  SpatialVector<dim> sum = SpatialVector<dim>::Zero();
-  SpatialTensor<dim> moment = SpatialTensor<dim>::Zero();
-  for (std::size_t i = 0; i < x.size(); ++i)
-  {
-    sum += forces[i];
-    moment += x[i] * forces[i].transpose();
-  }
-  return sum.norm() + (moment - moment.transpose()).norm();
-}
-
 TEST_P(ContactLaws, ActionEqualsReaction)
 {
   on_scene(
@@ -217,25 +139,6 @@ TEST_P(ContactLaws, ActionEqualsReaction)
 
         const auto resultants = potential.measure().resultants;
         EXPECT_LT((resultants[0] + resultants[1]).norm(), 1e-13 * resultants[0].norm() * 10.);
-      });
-}
-
-TEST_P(SurfaceLaws, DampingActsEquallyOnBothBodies)
-{
-  on_scene(
-      [](const auto &scene, auto dimension)
-      {
-        constexpr int dim = decltype(dimension)::value;
-        if (!scene.is_between_bodies())
-          return;
-        auto potential = scene.make_potential();
-        potential.update(scene.positions);
-        potential.evaluate(scene.positions);
-        RandomVectors<dim> random(3);
-        auto damping_forces = scene.zeros();
-        potential.add_damping_forces(random.field(scene.positions.size(), 1.), damping_forces);
-        EXPECT_GT(norm<dim>(damping_forces), 0.);
-        EXPECT_LT(measure_imbalance<dim>(scene.positions, damping_forces), 1e-12 * norm<dim>(damping_forces));
       });
 }
 
@@ -281,28 +184,6 @@ TEST_P(ContactLaws, NothingActsAtADistance)
           EXPECT_EQ(potential.measure().area, 0.);
           EXPECT_EQ(compute_tangent(potential, apart.size()).norm(), 0.);
           EXPECT_EQ(potential.measure().n_pairs > 0, gap < scene.reach) << "far facets must cost nothing";
-        }
-      });
-}
-
-TEST_P(SurfaceLaws, OnlyNearPointsAreSampledAndNoneDampedAtADistance)
-{
-  on_scene(
-      [](const auto &scene, auto dimension)
-      {
-        constexpr int dim = decltype(dimension)::value;
-        for (double gap : {.05, 10.})
-        {
-          const auto apart = scene.moved((.15 + gap) * SpatialVector<dim>::Unit(dim - 1));
-          auto potential = scene.make_potential();
-          potential.update(apart);
-          potential.evaluate(apart);
-          auto forces = scene.zeros();
-          EXPECT_EQ(potential.add_damping_forces(scene.positions, forces), 0.);
-          EXPECT_EQ(norm<dim>(forces), 0.);
-          EXPECT_EQ(!potential.samples().empty(), gap < 1.);
-          for (const auto &sample : potential.samples())
-            EXPECT_LT(sample.depth, 0.);
         }
       });
 }
@@ -371,36 +252,6 @@ TEST_P(ContactLaws, ClosedLoopDoesNoWork)
       1u, .01);
 }
 
-TEST_P(SurfaceLaws, DampingOnlyDissipates)
-{
-  on_scene(
-      [](const auto &scene, auto dimension)
-      {
-        constexpr int dim = decltype(dimension)::value;
-        auto potential = scene.make_potential();
-        potential.update(scene.positions);
-        potential.evaluate(scene.positions);
-        RandomVectors<dim> random(6);
-        for (double speed : {1e-3, 1., 1e3})
-        {
-          const auto velocities = random.field(scene.positions.size(), speed);
-          auto forces = scene.zeros();
-          const double power = potential.add_damping_forces(velocities, forces);
-          EXPECT_GT(power, 0.);
-          EXPECT_NEAR(power, -dot<dim>(forces, velocities),
-                      1e-12 * norm<dim>(forces) * norm<dim>(velocities));
-        }
-        auto undamped_scene = scene;
-        undamped_scene.settings.damping_ratio.reset();
-        auto undamped = undamped_scene.make_potential();
-        undamped.update(scene.positions);
-        undamped.evaluate(scene.positions);
-        auto forces = scene.zeros();
-        EXPECT_EQ(undamped.add_damping_forces(scene.positions, forces), 0.);
-        EXPECT_EQ(norm<dim>(forces), 0.);
-      });
-}
-
 TEST_P(ContactLaws, RowSumsBoundTheLargestEigenvalue)
 {
   on_scene(
@@ -417,29 +268,6 @@ TEST_P(ContactLaws, RowSumsBoundTheLargestEigenvalue)
         const double largest = solver.eigenvalues().maxCoeff();
         EXPECT_LE(largest, bound);
         EXPECT_GE(largest, scene.sharpness * bound) << "a bound that bounds anything is of no use";
-      });
-}
-
-/// Towards contact nothing is clipped, and the damping force is linear in the velocities.
-TEST_P(SurfaceLaws, RowSumsBoundDamping)
-{
-  on_scene(
-      [](const auto &scene, auto dimension)
-      {
-        constexpr int dim = decltype(dimension)::value;
-        auto potential = scene.make_potential();
-        potential.update(scene.positions);
-        potential.evaluate(scene.positions);
-        const std::size_t n = scene.positions.size();
-        std::vector<double> stiffness(n, 0.), damping(n, 0.);
-        potential.add_row_sum_bounds(stiffness, damping);
-        RandomVectors<dim> random(8);
-        const double damping_bound = *std::max_element(damping.begin(), damping.end());
-        const auto velocities = random.field(n, 1e-9);
-        auto forces = scene.zeros();
-        potential.add_damping_forces(velocities, forces);
-        EXPECT_GT(norm<dim>(forces), 0.);
-        EXPECT_LE(norm<dim>(forces), damping_bound * norm<dim>(velocities));
       });
 }
 

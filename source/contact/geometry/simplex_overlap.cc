@@ -128,16 +128,24 @@ ConvexPolytope<dim> make_overlap(const SimplexShape<dim> &first, const SimplexSh
 template <int dim>
 ConvexPolytope<dim> restrict_to_sector(const ConvexPolytope<dim> &overlap, unsigned int of, unsigned int m)
 {
-  constexpr unsigned int n = dim + 1;
+  constexpr unsigned int first = dim + 1;
+  // Most sectors are empty; that is seen without a copy.
+  Coordinates<dim> excess = Coordinates<dim>::Zero();
+  for (const Coordinates<dim> &corner : overlap.vertices())
+    excess = excess.cwiseMax(corner - Coordinates<dim>::Constant(corner[of * first + m]));
+  for (unsigned int k = of * first; k < (of + 1) * first; ++k)
+    if (k != of * first + m && excess[k] <= round_off)
+      return {};
+
   ConvexPolytope<dim> sector = overlap;
-  for (unsigned int k = 0; k < n && !sector.is_empty(); ++k)
+  for (unsigned int k = 0; k <= dim && !sector.is_empty(); ++k)
   {
     if (k == m)
       continue;
-    std::array<double, 32> distances = distances_where(sector, of * n + k);
+    std::array<double, 32> distances = distances_where(sector, of * first + k);
     for (std::size_t v = 0; v < sector.vertices().size(); ++v)
-      distances[v] -= sector.vertices()[v][of * n + m];
-    sector.clip(distances, 2 * n, round_off);
+      distances[v] -= sector.vertices()[v][of * first + m];
+    sector.clip(distances, 2 * first, round_off);
   }
   return sector;
 }

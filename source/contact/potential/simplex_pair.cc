@@ -2,7 +2,6 @@
 #include "signorini/contact/potential/simplex_pair.h"
 
 #include <algorithm>
-#include <limits>
 #include <numeric>
 
 namespace signorini::contact
@@ -187,16 +186,6 @@ private:
   double strength;
 };
 
-/// Depth below the nearest face, of a point with coordinates λ.
-template <int dim>
-double find_depth(const SimplexShape<dim> &shape, const Eigen::Matrix<double, dim + 1, 1> &lambda)
-{
-  double depth = std::numeric_limits<double>::max();
-  for (unsigned int a = 0; a <= dim; ++a)
-    depth = std::min(depth, lambda[a] / shape.gradients[a].norm());
-  return depth;
-}
-
 template <int dim>
 SpatialVector<dim> locate(const SimplexShape<dim> &shape, const Coordinates<dim> &coordinates)
 {
@@ -206,21 +195,33 @@ SpatialVector<dim> locate(const SimplexShape<dim> &shape, const Coordinates<dim>
   return x;
 }
 
+/// The present heights above all faces, in the order of the coordinates.
+template <int dim>
+Coordinates<dim> measure_heights(const SimplexPair<dim> &pair)
+{
+  Coordinates<dim> heights;
+  for (unsigned int p = 0; p < pair.n_vertices; ++p)
+    heights[p] = 1. / pair.shapes[p / (dim + 1)]->gradients[p % (dim + 1)].norm();
+  return heights;
+}
+
 template <int dim>
 void note_depths(const SimplexPair<dim> &pair, const ConvexPolytope<dim> &part,
-                 typename SimplexPair<dim>::State &state)
+                 const Coordinates<dim> &heights, typename SimplexPair<dim>::State &state)
 {
   for (const Coordinates<dim> &corner : part.vertices())
+  {
+    const Coordinates<dim> below_faces = corner.cwiseProduct(heights);
     for (unsigned int i = 0; i < 2; ++i)
     {
-      const Eigen::Matrix<double, dim + 1, 1> lambda = corner.template segment<dim + 1>(i * (dim + 1));
-      const double depth = find_depth<dim>(*pair.shapes[i], lambda);
+      const double depth = below_faces.template segment<dim + 1>(i * (dim + 1)).minCoeff();
+      const double lowest = corner.template segment<dim + 1>(i * (dim + 1)).minCoeff();
       if (depth > std::max(state.depths[0], state.depths[1]))
         state.deepest_position = locate<dim>(*pair.shapes[0], corner);
       state.depths[i] = std::max(state.depths[i], depth);
-      state.largest_potentials[i] =
-          std::max(state.largest_potentials[i], pair.strengths[i] * lambda.minCoeff());
+      state.largest_potentials[i] = std::max(state.largest_potentials[i], pair.strengths[i] * lowest);
     }
+  }
 }
 } // namespace
 
@@ -231,6 +232,7 @@ auto SimplexPair<dim>::evaluate() const -> std::optional<State>
   if (overlap.is_empty())
     return {};
   State state;
+  const Coordinates<dim> heights = measure_heights(*this);
   for (const auto &face : overlap.faces())
     if (face.label / (dim + 1) == 1)
       state.area += integrate_products(overlap, face).template bottomRightCorner<dim + 1, dim + 1>().sum() *
@@ -244,7 +246,7 @@ auto SimplexPair<dim>::evaluate() const -> std::optional<State>
                          {
                            side.add_energy(m, sector);
                            side.add_surfaces(m, sector);
-                           note_depths(*this, sector, state);
+                           note_depths<dim>(*this, sector, heights, state);
                          });
     side.add_forces(state.forces);
     state.energy += side.energy;

@@ -155,22 +155,32 @@ void VolumePotential<dim>::for_each_tangent(
     const
 {
   typename SimplexPair<dim>::Tangent tangent;
-  Eigen::MatrixXd to_vertices, block;
+  Eigen::MatrixXd block;
+  std::array<std::vector<std::pair<Eigen::Index, double>>, SimplexPair<dim>::n_vertices>
+      places; // and weights
   for (unsigned int pair = 0; pair < search.pairs().size(); ++pair)
   {
     if (!make_pair(pair).compute_tangent(verge_over_skin * skin, tangent))
       continue;
     const std::vector<unsigned int> nodes = nodes_of(pair);
-    to_vertices.setZero(tangent.rows(), static_cast<Eigen::Index>(dim * nodes.size()));
-    for (unsigned int p = 0; p < SimplexPair<dim>::n_vertices; ++p)
-      volume.for_each_node(
-          vertex(pair, p),
-          [&](unsigned int node, double weight)
-          {
-            const auto place = std::lower_bound(nodes.begin(), nodes.end(), node) - nodes.begin();
-            to_vertices.template block<dim, dim>(dim * p, dim * place).diagonal().setConstant(weight);
-          });
-    block.noalias() = to_vertices.transpose() * (tangent * to_vertices);
+    for (unsigned int p = 0; p < places.size(); ++p)
+    {
+      places[p].clear();
+      volume.for_each_node(vertex(pair, p),
+                           [&](unsigned int node, double weight)
+                           {
+                             const auto place = std::lower_bound(nodes.begin(), nodes.end(), node);
+                             places[p].emplace_back(dim * (place - nodes.begin()), weight);
+                           });
+    }
+    const auto size = static_cast<Eigen::Index>(dim * nodes.size());
+    block.setZero(size, size);
+    for (unsigned int p = 0; p < places.size(); ++p)
+      for (unsigned int q = 0; q < places.size(); ++q)
+        for (const auto &[row, row_weight] : places[p])
+          for (const auto &[column, weight] : places[q])
+            block.template block<dim, dim>(row, column) +=
+                row_weight * weight * tangent.template block<dim, dim>(dim * p, dim * q);
     add(nodes, block);
   }
 }

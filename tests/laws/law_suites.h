@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include "potential_scene.h"
+#include "volume_scene.h"
+
+#include <gtest/gtest.h>
+
+#include <sstream>
+#include <variant>
+
+namespace signorini::test
+{
+template <int dim, typename... Options>
+auto make_scene(const Case &c, Options... options)
+{
+  return PotentialScene<dim>(c, options...);
+}
+
+template <int dim, typename... Options>
+auto make_scene(const VolumeCase &c, Options... options)
+{
+  return VolumeScene<dim>(c, options...);
+}
+
+template <typename AnyCase, typename Check, typename... Options>
+void check_scene(const AnyCase &c, const Check &check, Options... options)
+{
+  if (c.dim == 2)
+    check(make_scene<2>(c, options...), std::integral_constant<int, 2>());
+  else
+    check(make_scene<3>(c, options...), std::integral_constant<int, 3>());
+}
+
+/// Laws of all potentials, each checked on every scene of every potential.
+class ContactLaws : public testing::TestWithParam<std::variant<Case, VolumeCase>>
+{
+protected:
+  template <typename Check, typename... Options>
+  void on_scene(const Check &check, Options... options) const
+  {
+    std::visit([&](const auto &c) { check_scene(c, check, options...); }, GetParam());
+  }
+};
+
+/// Laws of what only the surface potential has, on all its scenes.
+class SurfaceLaws : public testing::TestWithParam<Case>
+{
+protected:
+  template <typename Check>
+  void on_scene(const Check &check) const
+  {
+    check_scene(GetParam(), check);
+  }
+};
+
+struct NameCase
+{
+  std::string operator()(const testing::TestParamInfo<Case> &info) const { return name(info.param); }
+  std::string operator()(const testing::TestParamInfo<ContactLaws::ParamType> &info) const
+  {
+    return std::visit([](const auto &c) { return name(c); }, info.param);
+  }
+
+  template <typename AnyCase>
+  static std::string name(const AnyCase &c)
+  {
+    std::ostringstream stream;
+    stream << c;
+    return stream.str();
+  }
+};
+
+/// Sum of the forces, and of their moments about the origin (entries of the skew part of Σ x fᵀ).
+template <int dim>
+double measure_imbalance(const Positions<dim> &x, const Positions<dim> &forces)
+{
+  SpatialVector<dim> sum = SpatialVector<dim>::Zero();
+  SpatialTensor<dim> moment = SpatialTensor<dim>::Zero();
+  for (std::size_t i = 0; i < x.size(); ++i)
+  {
+    sum += forces[i];
+    moment += x[i] * forces[i].transpose();
+  }
+  return sum.norm() + (moment - moment.transpose()).norm();
+}
+} // namespace signorini::test

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// The laws of damping and samples; contact_laws.cc says on which scenes.
+#include "law_suites.h"
+
+using namespace signorini;
+using namespace signorini::contact;
+using namespace signorini::test;
+
+TEST_P(SurfaceLaws, DampingActsEquallyOnBothBodies)
+{
+  on_scene(
+      [](const auto &scene, auto dimension)
+      {
+        constexpr int dim = decltype(dimension)::value;
+        if (!scene.is_between_bodies())
+          return;
+        auto potential = scene.make_potential();
+        potential.update(scene.positions);
+        potential.evaluate(scene.positions);
+        RandomVectors<dim> random(3);
+        auto damping_forces = scene.zeros();
+        potential.add_damping_forces(random.field(scene.positions.size(), 1.), damping_forces);
+        EXPECT_GT(norm<dim>(damping_forces), 0.);
+        EXPECT_LT(measure_imbalance<dim>(scene.positions, damping_forces), 1e-12 * norm<dim>(damping_forces));
+      });
+}
+
+TEST_P(SurfaceLaws, OnlyNearPointsAreSampledAndNoneDampedAtADistance)
+{
+  on_scene(
+      [](const auto &scene, auto dimension)
+      {
+        constexpr int dim = decltype(dimension)::value;
+        for (double gap : {.05, 10.})
+        {
+          const auto apart = scene.moved((.15 + gap) * SpatialVector<dim>::Unit(dim - 1));
+          auto potential = scene.make_potential();
+          potential.update(apart);
+          potential.evaluate(apart);
+          auto forces = scene.zeros();
+          EXPECT_EQ(potential.add_damping_forces(scene.positions, forces), 0.);
+          EXPECT_EQ(norm<dim>(forces), 0.);
+          EXPECT_EQ(!potential.samples().empty(), gap < 1.);
+          for (const auto &sample : potential.samples())
+            EXPECT_LT(sample.depth, 0.);
+        }
+      });
+}
+
+TEST_P(SurfaceLaws, DampingOnlyDissipates)
+{
+  on_scene(
+      [](const auto &scene, auto dimension)
+      {
+        constexpr int dim = decltype(dimension)::value;
+        auto potential = scene.make_potential();
+        potential.update(scene.positions);
+        potential.evaluate(scene.positions);
+        RandomVectors<dim> random(6);
+        for (double speed : {1e-3, 1., 1e3})
+        {
+          const auto velocities = random.field(scene.positions.size(), speed);
+          auto forces = scene.zeros();
+          const double power = potential.add_damping_forces(velocities, forces);
+          EXPECT_GT(power, 0.);
+          EXPECT_NEAR(power, -dot<dim>(forces, velocities),
+                      1e-12 * norm<dim>(forces) * norm<dim>(velocities));
+        }
+        auto undamped_scene = scene;
+        undamped_scene.settings.damping_ratio.reset();
+        auto undamped = undamped_scene.make_potential();
+        undamped.update(scene.positions);
+        undamped.evaluate(scene.positions);
+        auto forces = scene.zeros();
+        EXPECT_EQ(undamped.add_damping_forces(scene.positions, forces), 0.);
+        EXPECT_EQ(norm<dim>(forces), 0.);
+      });
+}
+
+/// Towards contact nothing is clipped, and the damping force is linear in the velocities.
+TEST_P(SurfaceLaws, RowSumsBoundDamping)
+{
+  on_scene(
+      [](const auto &scene, auto dimension)
+      {
+        constexpr int dim = decltype(dimension)::value;
+        auto potential = scene.make_potential();
+        potential.update(scene.positions);
+        potential.evaluate(scene.positions);
+        const std::size_t n = scene.positions.size();
+        std::vector<double> stiffness(n, 0.), damping(n, 0.);
+        potential.add_row_sum_bounds(stiffness, damping);
+        RandomVectors<dim> random(8);
+        const double damping_bound = *std::max_element(damping.begin(), damping.end());
+        const auto velocities = random.field(n, 1e-9);
+        auto forces = scene.zeros();
+        potential.add_damping_forces(velocities, forces);
+        EXPECT_GT(norm<dim>(forces), 0.);
+        EXPECT_LE(norm<dim>(forces), damping_bound * norm<dim>(velocities));
+      });
+}
