@@ -165,7 +165,14 @@ void make_gmsh_mesh(const GmshSession &gmsh, const std::string &file, const unsi
                  [&size](int /*dimension*/, int /*tag*/, const double x, const double y, const double z) {
                    return size({x, y, z});
                  });
+             // An exception could not leave the parallel regions of the mesher: it must go on to their end.
+             gmsh::option::setNumber("General.AbortOnError", 0.);
              gmsh::model::mesh::generate(static_cast<int>(dimension));
+             gmsh::option::setNumber("General.AbortOnError", 2.);
+             std::string error;
+             gmsh::logger::getLastError(error);
+             if (!error.empty())
+               throw error;
            });
 }
 

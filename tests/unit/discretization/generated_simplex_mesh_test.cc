@@ -194,9 +194,26 @@ TEST(GeneratedSimplexMesh, MiddleNodesLieOnCurvedBoundaries)
 
 TEST(GeneratedSimplexMesh, EdgesThatWouldFoldACellStayStraight)
 {
-  // So coarse that some cells of the octant would fold.
-  for (const double size : {1.5, 2., 3.})
-    expect_sound(generate(ball(1., size, Part::orthant), 3, 2));
+  // A rod so coarse that the curved edges of its ends would fold cells.
+  MeshParameters rod = tetrahedra(MeshParameters::Shape::cylinder, 1.);
+  rod.radius = .1;
+  const SimplexMesh mesh = generate(rod, 3, 2);
+  expect_sound(mesh);
+  expect_boundaries(mesh, rod);
+}
+
+TEST(GeneratedSimplexMesh, AShapeThatCannotBeMeshedIsRefused)
+{
+  const TemporaryFile file(".brep", "");
+  {
+    const GmshSession gmsh;
+    gmsh::model::occ::addTorus(0., 0., 0., 1., .1);
+    gmsh::model::occ::synchronize();
+    gmsh::write(file.path);
+  }
+  MeshParameters parameters = tetrahedra(MeshParameters::Shape::file, 1.);
+  parameters.file = file.path;
+  EXPECT_THROW(generate(parameters, 3), InputError);
 }
 
 TEST(GeneratedSimplexMesh, IsTheSameEveryTime)

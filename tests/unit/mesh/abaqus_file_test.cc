@@ -57,6 +57,13 @@ roof, 2
     }
 }
 
+TEST(AbaqusFile, TheSetOfAllNodesIsNoBoundary)
+{
+  EXPECT_EQ(read_text(".inp", both).boundary_names, std::vector<std::string>{"rest"});
+  EXPECT_EQ(read_text(".inp", both + "*NSET, NSET=floor\n1, 2, 3\n").boundary_names,
+            (std::vector<std::string>{"floor", "rest"}));
+}
+
 TEST(AbaqusFile, FacesOfElementsAreNumberedAsThere)
 {
   // S1 to S4 of the first tetrahedron: the plane each lies in.

@@ -169,6 +169,18 @@ TEST(MeshFile, CellsAllInvertedAreTurned)
   EXPECT_EQ(plane.edge_midpoints.begin()->second, (Triple{1., -.25, 0.}));
 }
 
+TEST(MeshFile, TurnedTetrahedraKeepTheirMiddleNodes)
+{
+  std::string text = tetrahedron_of_ten(3, true);
+  // The first two nodes exchanged, and the middle nodes of the edges with them.
+  const std::string element = "1, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10";
+  text.replace(text.find(element), element.size(), "1, 2, 1, 3, 4, 5, 7, 6, 9, 8, 10");
+  const SimplexMesh mesh = read_text(".inp", text);
+  expect_sound(mesh);
+  ASSERT_EQ(mesh.edge_midpoints.size(), 1u);
+  EXPECT_EQ(mesh.edge_midpoints.begin()->second, (Triple{.125, 0., .5}));
+}
+
 TEST(MeshFile, BrokenMeshesAreRefused)
 {
   struct Case
@@ -208,6 +220,9 @@ TEST(MeshFile, FoldedQuadraticCellsAreRefused)
   EXPECT_EQ(refusal(".inp", text), "");
   text.replace(text.find("0.625000"), 8, "0.850000"); // beyond three quarters of the edge
   EXPECT_NE(refusal(".inp", text).find("folded"), std::string::npos);
+  // Sound at its corners, folded between them.
+  const std::vector<std::string> six{"0 0 0", "1 0 0", "0 1 0", ".7 -.3 0", ".1 .1 0", "-.3 .9 0"};
+  EXPECT_NE(refusal(".msh", msh_text(six, {"9 2 1 1 1 2 3 4 5 6"}), 2).find("folded"), std::string::npos);
 }
 
 TEST(MeshFile, BrokenTextIsRefused)

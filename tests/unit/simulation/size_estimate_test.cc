@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "signorini/simulation/size_estimate.h"
 
+#include "signorini/discretization/generated_simplex_mesh.h"
 #include "signorini/discretization/scene_mesh.h"
 
 #include <gtest/gtest.h>
@@ -62,4 +63,22 @@ TEST(SizeEstimate, IsNearForGradedMeshes)
   const double graded_box = n_cells<3>(with_body(box, 3));
   EXPECT_LT(estimate_size(with_body(box, 3), 1).n_cells, 2. * graded_box);
   EXPECT_GT(estimate_size(with_body(box, 3), 1).n_cells, 0.3 * graded_box);
+}
+
+TEST(SizeEstimate, IsNearForTetrahedra)
+{
+  MeshParameters box;
+  box.cell_type = MeshParameters::CellType::tetrahedra;
+  box.element_size = .2;
+  box.refinements = 1;
+  for (const unsigned int dimension : {2u, 3u})
+  {
+    const SimplexMesh mesh = make_simplex_body_mesh(box, dimension, 1);
+    const SizeEstimate size = estimate_size(with_body(box, dimension), 1);
+    EXPECT_NEAR(size.n_cells / mesh.cells.size(), 1., .3);
+    EXPECT_NEAR(size.n_dofs / (dimension * mesh.vertices.size()), 1., .4);
+  }
+  box.refinements = 0;
+  box.mesh_of_file = std::make_shared<const SimplexMesh>(make_simplex_body_mesh(box, 3, 1));
+  EXPECT_EQ(estimate_size(with_body(box, 3), 1).n_cells, box.mesh_of_file->cells.size());
 }
