@@ -48,7 +48,8 @@ public:
     faces.push_back(part);
   }
 
-  /// Closes the hole with faces in the plane of the cut, one unless round-off bent the polytope.
+  /// Closes the hole with faces in the plane of the cut, one unless round-off bent the polytope. What is left
+  /// of the surface has its rim in that plane, and a rim is closed: every edge has a next one.
   void close(unsigned int label)
   {
     while (!rim.empty())
