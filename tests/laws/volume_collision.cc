@@ -148,7 +148,7 @@ TYPED_TEST_SUITE(VolumeCollision, Dimensions);
 TYPED_TEST(VolumeCollision, KeepsTheEnergyToSecondOrder)
 {
   constexpr int dim = TypeParam::value;
-  for (const double penalty_factor : {1e-3, 1e-1, 1e1, 1e3, 1e4})
+  for (const double penalty_factor : {1e-3, 1e1, 1e4})
   {
     Collision<dim> collision(penalty_factor, 100.);
     const double time_step = .05 / std::sqrt(1e3 + 2e3 * penalty_factor);

@@ -3,6 +3,7 @@
 
 #include "../../laws/potential_scene.h"
 #include "../../laws/volume_scene.h"
+#include "simplex_samples.h"
 
 #include <Eigen/Eigenvalues>
 #include <gtest/gtest.h>
@@ -17,11 +18,10 @@ namespace
 using namespace signorini::test;
 
 template <typename Dimension>
-class VolumePotentialTest : public testing::Test
+class VolumePotentialTest : public ::testing::Test
 {
 };
-using Dimensions = testing::Types<std::integral_constant<int, 2>, std::integral_constant<int, 3>>;
-TYPED_TEST_SUITE(VolumePotentialTest, Dimensions);
+TYPED_TEST_SUITE(VolumePotentialTest, testing::Dimensions);
 
 template <int dim>
 constexpr unsigned int n_lower_nodes = dim == 2 ? 16 : 64;
@@ -197,7 +197,7 @@ TYPED_TEST(VolumePotentialTest, RowSumBoundHoldsUntilTheNextSearch)
       const double bound = *std::max_element(bounds.begin(), bounds.end());
       RandomVectors<dim> random(10);
       double largest = largest_eigenvalue(potential, volume.n_nodes());
-      for (unsigned int trial = 0; trial < 10; ++trial)
+      for (unsigned int trial = 0; trial < testing::count_cases(10); ++trial)
       {
         // Both bodies towards each other, not far enough for another search.
         const double way = random.number(.001, .002);
