@@ -10,7 +10,7 @@ std::vector<unsigned int> find_cell_work(const Discretization<dim> &discretizati
 {
   constexpr unsigned int work_of_cell = 1000, work_of_body_pair = 700, work_of_obstacle_pair = 75;
   std::vector<unsigned int> work(discretization.cells.n_cells, work_of_cell);
-  for (const auto &contact : forces.contacts)
+  for (const auto &contact : forces.surface_contacts)
   {
     const unsigned int work_of_pair = contact->is_external ? work_of_obstacle_pair : work_of_body_pair;
     const std::vector<unsigned int> n_pairs = contact->n_pairs_of_facets();

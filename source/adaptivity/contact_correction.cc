@@ -18,7 +18,7 @@ ContactCorrection<dim>::ContactCorrection(const Discretization<dim> &the_discret
                                           const std::vector<BoundaryFace<dim>> &boundary_faces)
     : scene(&the_scene), forces(&scene_forces), map(&surface_map), discretization(&the_discretization),
       recovery(the_discretization), faces(&boundary_faces),
-      current(scene_forces.contacts.size(), NodalPressures<dim>(surface_map.surface().facets.size()))
+      current(scene_forces.surface_contacts.size(), NodalPressures<dim>(surface_map.surface().facets.size()))
 {
 }
 
@@ -49,7 +49,7 @@ double ContactCorrection<dim>::update(const State &state)
   const std::vector<SpatialVector<dim>> positions = map->positions(state.displacement);
   recovery.recover(forces->elasticity->point_stresses());
   std::vector<NodalPressures<dim>> pressures;
-  for (const auto &contact : forces->contacts)
+  for (const auto &contact : forces->surface_contacts)
     pressures.push_back(contact->facet_pressures());
   double largest_change = 0., largest = 0.;
   unsigned int cell = static_cast<unsigned int>(-1);
@@ -87,7 +87,7 @@ void ContactCorrection<dim>::set(Multipliers multipliers)
 {
   current = std::move(multipliers);
   for (unsigned int term = 0; term < current.size(); ++term)
-    forces->contacts[term]->set_multipliers(current[term]);
+    forces->surface_contacts[term]->set_multipliers(current[term]);
 }
 
 template class ContactCorrection<2>;

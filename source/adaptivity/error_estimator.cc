@@ -14,6 +14,7 @@ ErrorEstimator<dim>::ErrorEstimator(const Discretization<dim> &the_discretizatio
                                     const Scene<dim> &the_scene, const SceneForces<dim> &scene_forces,
                                     const SurfaceMap<dim> *surface_map)
     : discretization(&the_discretization), scene(&the_scene), forces(&scene_forces), map(surface_map),
+      are_tractions_known(scene_forces.contacts.size() == scene_forces.surface_contacts.size()),
       recovery(the_discretization), faces(collect_boundary_faces(the_discretization, surface_map))
 {
 }
@@ -59,11 +60,10 @@ void ErrorEstimator<dim>::balance_tractions(const BoundaryFace<dim> &face, doubl
 template <int dim>
 NodalPressures<dim> ErrorEstimator<dim>::contact_pressures() const
 {
-  NodalPressures<dim> sum;
-  for (const auto &contact : forces->contacts)
+  NodalPressures<dim> sum(map != nullptr ? map->surface().facets.size() : 0);
+  for (const auto &contact : forces->surface_contacts)
   {
     const NodalPressures<dim> pressures = contact->facet_pressures();
-    sum.resize(pressures.size());
     for (unsigned int f = 0; f < pressures.size(); ++f)
       for (unsigned int i = 0; i < pressures[f].size(); ++i)
         sum[f][i] += pressures[f][i];
@@ -94,7 +94,7 @@ void ErrorEstimator<dim>::find_unseen_contact(const State &state, ErrorEstimate 
 {
   result.is_contact_unseen.assign(discretization->cells.n_cells, false);
   bool is_any = false;
-  for (const auto &contact : forces->contacts)
+  for (const auto &contact : forces->surface_contacts)
   {
     const std::vector<unsigned int> unseen = contact->unseen_contact(state);
     for (const BoundaryFace<dim> &face : faces)
@@ -119,12 +119,13 @@ ErrorEstimate ErrorEstimator<dim>::estimate(const State &state)
   {
     std::vector<Eigen::Matrix3d> nodal = recovery.nodal_stresses(cell);
     for (; face != faces.end() && face->cell == cell; ++face)
-      balance_tractions(*face, state.time, pressures, nodal);
+      if (are_tractions_known)
+        balance_tractions(*face, state.time, pressures, nodal);
     result.cell_discretization.push_back(
         squared_error(cell, nodal, &point_stresses[discretization->cells.first_point(cell)]));
     result.discretization += result.cell_discretization.back();
   }
-  for (const auto &contact : forces->contacts)
+  for (const auto &contact : forces->surface_contacts)
   {
     const std::vector<double> errors = contact->facet_errors();
     for (const BoundaryFace<dim> &of_face : faces)
@@ -135,6 +136,12 @@ ErrorEstimate ErrorEstimator<dim>::estimate(const State &state)
   find_unseen_contact(state, result);
   result.discretization = dealii::Utilities::MPI::sum(result.discretization, discretization->communicator());
   result.contact = dealii::Utilities::MPI::sum(result.contact, discretization->communicator());
+  if (!are_tractions_known)
+    for (const auto &contact : forces->contacts)
+      result.contact += 2. * contact->energy();
+  if (!are_tractions_known)
+    for (const auto &contact : forces->surface_contacts)
+      result.contact -= 2. * contact->energy(); // they have been counted by facets
   result.energy = 2. * forces->elasticity->energy();
   return result;
 }

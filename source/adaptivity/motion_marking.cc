@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "signorini/adaptivity/motion_marking.h"
 
+#include "signorini/adaptivity/error_classes.h"
 #include "signorini/contact/search/coming_contact.h"
 #include "signorini/parameters/contact_parameters.h"
 
@@ -23,50 +24,6 @@ std::vector<unsigned int> find_extra_levels(const Discretization<dim> &discretiz
       extra_levels[own_cell++] = cell->level() - file_levels.level_at(cell);
   return extra_levels;
 }
-
-/// Squared errors sorted by size into classes of a tenth of a factor of two each; summed over all ranks.
-class ErrorClasses
-{
-public:
-  static constexpr unsigned int n_classes = 600;
-
-  ErrorClasses(const ErrorEstimate &estimate, const MPI_Comm &communicator)
-      : total(estimate.discretization), sums(n_classes, 0.)
-  {
-    for (const double squared : estimate.cell_discretization)
-      sums[class_of(squared)] += squared;
-    dealii::Utilities::MPI::sum(sums, communicator, sums);
-  }
-
-  /// 0 holds the largest errors.
-  unsigned int class_of(double squared) const
-  {
-    const double index = squared > 0. ? std::floor(-10. * std::log2(squared / total)) : n_classes;
-    return static_cast<unsigned int>(std::clamp(index, 0., n_classes - 1.));
-  }
-
-  /// Classes below this one hold just at least that share.
-  unsigned int end_of_largest(double share) const
-  {
-    unsigned int end = 0;
-    for (double sum = 0.; end < n_classes && sum < share * total; ++end)
-      sum += sums[end];
-    return end;
-  }
-
-  /// Classes from this one on hold at most that share.
-  unsigned int begin_of_smallest(double share) const
-  {
-    unsigned int begin = n_classes;
-    for (double sum = 0.; begin > 0 && (sum += sums[begin - 1]) <= share * total; --begin)
-      ;
-    return begin;
-  }
-
-private:
-  double total;
-  std::vector<double> sums;
-};
 } // namespace
 
 template <int dim>

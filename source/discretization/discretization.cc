@@ -5,6 +5,7 @@
 #include "signorini/base/exceptions.h"
 #include "signorini/base/to_eigen.h"
 #include "signorini/discretization/scene_mesh.h"
+#include "signorini/discretization/simplex_field.h"
 
 #include <deal.II/distributed/solution_transfer.h>
 #include <deal.II/fe/fe_values.h>
@@ -97,43 +98,81 @@ template <int dim>
 void Discretization<dim>::change_mesh(const std::vector<Vector *> &values,
                                       const std::function<void()> &change)
 {
-  // Every part's own values: those of the hexahedra are transferred, those of the others stay what they are.
-  std::vector<std::vector<Vector>> old_values;
-  for (const MeshPart<dim> *part : parts)
-  {
-    old_values.emplace_back();
-    for (const Vector *vector : values)
-      old_values.back().push_back(part->extract(*vector));
-  }
+  const std::vector<Vector> on_tetrahedra = tetrahedra ? extract(*tetrahedra, values) : std::vector<Vector>();
+  std::vector<Vector> on_hexahedra = extract(*hexahedra, values);
   std::vector<const Vector *> old_pointers;
-  for (Vector &vector : old_values[0])
-  {
-    vector.update_ghost_values(); // lost where std::vector moved it
+  for (const Vector &vector : on_hexahedra)
     old_pointers.push_back(&vector);
-  }
   dealii::parallel::distributed::SolutionTransfer<dim, Vector> transfer(hexahedra->dof_handler);
   transfer.prepare_for_coarsening_and_refinement(old_pointers);
   change();
+  set_up_anew(values);
 
+  std::vector<Vector> transferred = extract(*hexahedra, values);
+  std::vector<Vector *> new_pointers;
+  for (Vector &vector : transferred)
+    new_pointers.push_back(&vector);
+  transfer.interpolate(new_pointers);
+  for (unsigned int i = 0; i < values.size(); ++i)
+  {
+    hexahedra->insert(transferred[i], *values[i]);
+    if (tetrahedra)
+      tetrahedra->insert(on_tetrahedra[i], *values[i]);
+    distribute(*values[i]);
+  }
+}
+
+template <int dim>
+std::vector<Vector> Discretization<dim>::extract(const MeshPart<dim> &part,
+                                                 const std::vector<Vector *> &values)
+{
+  std::vector<Vector> of_part;
+  of_part.reserve(values.size()); // a vector that is moved loses its ghost values
+  for (const Vector *vector : values)
+    of_part.push_back(part.extract(*vector));
+  for (Vector &vector : of_part)
+    vector.update_ghost_values();
+  return of_part;
+}
+
+template <int dim>
+void Discretization<dim>::set_up_anew(const std::vector<Vector *> &values)
+{
   hanging_dofs.clear();
   cells = CellTable<dim>();
   owned_nodes.clear();
   unused_dofs.clear();
   set_up();
-  std::vector<Vector *> new_pointers;
-  for (unsigned int i = 0; i < values.size(); ++i)
-  {
-    *values[i] = make_vector();
-    old_values[0][i] = hexahedra->extract(*values[i]);
-    new_pointers.push_back(&old_values[0][i]);
-  }
-  transfer.interpolate(new_pointers);
-  for (unsigned int i = 0; i < values.size(); ++i)
-  {
-    for (unsigned int part = 0; part < parts.size(); ++part)
-      parts[part]->insert(old_values[part][i], *values[i]);
-    distribute(*values[i]);
-  }
+  for (Vector *vector : values)
+    *vector = make_vector();
+}
+
+template <int dim>
+void Discretization<dim>::replace_tetrahedra(const std::vector<PlacedSimplexMesh> &meshes,
+                                             const std::vector<Vector *> &values)
+{
+  const SimplexField<dim> on_tetrahedra(*this, {values.begin(), values.end()});
+  const std::vector<Vector> on_hexahedra = hexahedra ? extract(*hexahedra, values) : std::vector<Vector>();
+  tetrahedra = std::make_unique<TetrahedralPart<dim>>(meshes, degree, mpi_communicator);
+  parts.back() = tetrahedra.get();
+  set_up_anew(values);
+  for (unsigned int i = 0; i < on_hexahedra.size(); ++i)
+    hexahedra->insert(on_hexahedra[i], *values[i]);
+  std::vector<bool> is_of_tetrahedra(partitioner->locally_owned_size(), false);
+  for (unsigned int cell = tetrahedra->first_cell; cell < cells.n_cells; ++cell)
+    for (unsigned int i = 0; i < cells.n_cell_dofs(cell); ++i)
+      if (cells.cell_dofs(cell)[i] < is_of_tetrahedra.size())
+        is_of_tetrahedra[cells.cell_dofs(cell)[i]] = true;
+  for (const OwnedNode<dim> &node : owned_nodes)
+    if (is_of_tetrahedra[node.dofs[0]])
+    {
+      const std::vector<SpatialVector<dim>> at_node = on_tetrahedra.evaluate(node.body, node.position);
+      for (unsigned int i = 0; i < values.size(); ++i)
+        for (unsigned int d = 0; d < dim; ++d)
+          values[i]->local_element(node.dofs[d]) = at_node[i][d];
+    }
+  for (Vector *vector : values)
+    distribute(*vector);
 }
 
 template <int dim>

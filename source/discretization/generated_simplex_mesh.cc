@@ -2,6 +2,7 @@
 #include "signorini/discretization/generated_simplex_mesh.h"
 
 #include "signorini/discretization/body_mesh.h"
+#include "signorini/discretization/cut_box.h"
 #include "signorini/mesh/geometry_file.h"
 #include "signorini/mesh/gmsh_model.h"
 #include "signorini/mesh/make_simplex_mesh.h"
@@ -196,8 +197,10 @@ SimplexMesh generate_simplex_mesh(const MeshParameters &parameters, const unsign
 SimplexMesh make_simplex_body_mesh(const MeshParameters &parameters, const unsigned int dimension,
                                    const unsigned int degree)
 {
-  return parameters.mesh_of_file
-             ? *parameters.mesh_of_file
-             : generate_simplex_mesh(parameters, dimension, degree, make_size_field(parameters, dimension));
+  if (parameters.mesh_of_file)
+    return *parameters.mesh_of_file;
+  if (parameters.element_size == 0.)
+    return make_cut_box(parameters, dimension);
+  return generate_simplex_mesh(parameters, dimension, degree, make_size_field(parameters, dimension));
 }
 } // namespace signorini

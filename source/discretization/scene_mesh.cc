@@ -3,6 +3,7 @@
 
 #include "signorini/discretization/body_mesh.h"
 #include "signorini/discretization/placement.h"
+#include "signorini/parameters/mesh_parameters.h"
 
 #include <deal.II/base/bounding_box.h>
 #include <deal.II/grid/grid_tools.h>
@@ -96,6 +97,17 @@ double distance_to_grading(const MeshParameters &mesh, const Placement<dim> &pla
   return std::sqrt(squared);
 }
 
+/// Gives the faces of a mesh the indices of their boundaries among `names`.
+void number_boundaries(const std::vector<std::string> &names, SimplexMesh &mesh)
+{
+  for (SimplexMesh::Face &face : mesh.faces)
+  {
+    const auto name = std::find(names.begin(), names.end(), mesh.boundary_names[face.boundary]);
+    AssertThrow(name != names.end(), dealii::ExcInternalError());
+    face.boundary = static_cast<unsigned int>(name - names.begin());
+  }
+  mesh.boundary_names = names;
+}
 } // namespace
 
 template <int dim>
@@ -184,7 +196,8 @@ make_scene_mesh(const std::vector<BodyParameters> &bodies, const MPI_Comm &commu
 }
 
 template <int dim>
-std::vector<PlacedSimplexMesh> place_simplex_meshes(const std::vector<BodyParameters> &bodies, unsigned int)
+std::vector<PlacedSimplexMesh> place_simplex_meshes(const std::vector<BodyParameters> &bodies,
+                                                    unsigned int degree, const SizeOfBody &size_of_body)
 {
   std::vector<PlacedSimplexMesh> meshes;
   for (unsigned int body = 0; body < bodies.size(); ++body)
@@ -201,7 +214,11 @@ std::vector<PlacedSimplexMesh> place_simplex_meshes(const std::vector<BodyParame
       for (unsigned int d = 0; d < dim; ++d)
         point[d] = placed[d];
     };
-    SimplexMesh mesh = *bodies[body].mesh.mesh_of_file;
+    const MeshParameters &parameters = bodies[body].mesh;
+    SimplexMesh mesh = size_of_body && !parameters.mesh_of_file
+                           ? generate_simplex_mesh(parameters, dim, degree, size_of_body(body))
+                           : make_simplex_body_mesh(parameters, dim, degree);
+    number_boundaries(boundary_names(parameters, dim), mesh);
     for (Triple &vertex : mesh.vertices)
       place(vertex);
     for (auto &midpoint : mesh.edge_midpoints)
@@ -218,7 +235,7 @@ make_scene_mesh<2>(const std::vector<BodyParameters> &, const MPI_Comm &);
 template std::unique_ptr<dealii::parallel::distributed::Triangulation<3>>
 make_scene_mesh<3>(const std::vector<BodyParameters> &, const MPI_Comm &);
 template std::vector<PlacedSimplexMesh> place_simplex_meshes<2>(const std::vector<BodyParameters> &,
-                                                                unsigned int);
+                                                                unsigned int, const SizeOfBody &);
 template std::vector<PlacedSimplexMesh> place_simplex_meshes<3>(const std::vector<BodyParameters> &,
-                                                                unsigned int);
+                                                                unsigned int, const SizeOfBody &);
 } // namespace signorini

@@ -186,28 +186,19 @@ private:
 
 template <int dim>
 SurfaceMap<dim>::SurfaceMap(const Scene<dim> &scene, const Discretization<dim> &the_discretization)
-    : discretization(&the_discretization)
+    : NodeMap<dim>(the_discretization)
 {
+  const MPI_Comm &communicator = the_discretization.communicator();
   contact_surface.n_bodies = scene.n_bodies();
-  number_nodes(dealii::Utilities::MPI::all_gather(discretization->communicator(),
-                                                  FacetCollector<dim>(*discretization).pack_own_facets()),
-               dealii::Utilities::MPI::this_mpi_process(discretization->communicator()));
-  move_origin();
+  number_nodes(dealii::Utilities::MPI::all_gather(communicator,
+                                                  FacetCollector<dim>(the_discretization).pack_own_facets()),
+               dealii::Utilities::MPI::this_mpi_process(communicator));
+  contact_surface.origin = move_to_middle(contact_surface.reference_positions);
   for (Facet<dim> &facet : contact_surface.facets)
   {
     facet.youngs_modulus = scene.materials[facet.body].youngs_modulus;
     facet.density = scene.materials[facet.body].density;
   }
-  const Vector layout = discretization->make_vector();
-  for (unsigned int node = 0; node < dofs.size(); ++node)
-    if (discretization->owned_dofs.is_element(dofs[node][0]))
-    {
-      std::array<unsigned int, dim> local;
-      for (unsigned int d = 0; d < dim; ++d)
-        local[d] = layout.get_partitioner()->global_to_local(dofs[node][d]);
-      owned_nodes.emplace_back(node, local);
-    }
-  gather_constraints();
 }
 
 template <int dim>
@@ -215,11 +206,12 @@ void SurfaceMap<dim>::number_nodes(const std::vector<std::vector<double>> &packe
                                    unsigned int this_rank)
 {
   std::unordered_map<dealii::types::global_dof_index, unsigned int> node_of_dof;
+  std::vector<typename NodeMap<dim>::NodeDofs> all_node_dofs;
   for (unsigned int rank = 0; rank < packed_facets.size(); ++rank)
     for (auto value = packed_facets[rank].begin(); value != packed_facets[rank].end();)
     {
       Facet<dim> facet;
-      facet.degree = discretization->degree;
+      facet.degree = this->discretization->degree;
       facet.owned = (rank == this_rank);
       facet.body = static_cast<unsigned int>(*value++);
       facet.layer_thickness = *value++;
@@ -238,113 +230,21 @@ void SurfaceMap<dim>::number_nodes(const std::vector<std::vector<double>> &packe
         if (is_new)
         {
           contact_surface.reference_positions.push_back(position);
-          dofs.push_back(node_dofs);
+          all_node_dofs.push_back(node_dofs);
         }
       }
       contact_surface.facets.push_back(facet);
     }
-}
-
-template <int dim>
-void SurfaceMap<dim>::move_origin()
-{
-  auto &positions = contact_surface.reference_positions;
-  SpatialVector<dim> low = positions.at(0), high = low;
-  for (const SpatialVector<dim> &x : positions)
-  {
-    low = low.cwiseMin(x);
-    high = high.cwiseMax(x);
-  }
-  contact_surface.origin = 0.5 * (low + high);
-  for (SpatialVector<dim> &x : positions)
-    x -= contact_surface.origin;
-}
-
-template <int dim>
-void SurfaceMap<dim>::gather_constraints()
-{
-  std::vector<double> packed;
-  for (const auto &[node, local] : owned_nodes)
-    for (const dealii::types::global_dof_index dof : dofs[node])
-      if (discretization->hanging_constraints.is_constrained(dof))
-      {
-        const auto &entries = *discretization->hanging_constraints.get_constraint_entries(dof);
-        packed.push_back(static_cast<double>(dof));
-        packed.push_back(static_cast<double>(entries.size()));
-        for (const auto &[master, weight] : entries)
-        {
-          packed.push_back(static_cast<double>(master));
-          packed.push_back(weight);
-        }
-      }
-  all_relevant_dofs = discretization->relevant_dofs;
-  for (const auto &node_dofs : dofs)
-    for (const dealii::types::global_dof_index dof : node_dofs)
-      all_relevant_dofs.add_index(dof);
-  for (const auto &of_rank : dealii::Utilities::MPI::all_gather(discretization->communicator(), packed))
-    for (auto value = of_rank.begin(); value != of_rank.end();)
-    {
-      typename dealii::AffineConstraints<double>::ConstraintLine line;
-      line.index = static_cast<dealii::types::global_dof_index>(*value++);
-      const auto n_entries = static_cast<unsigned int>(*value++);
-      for (unsigned int i = 0; i < n_entries; ++i)
-      {
-        const auto master = static_cast<dealii::types::global_dof_index>(*value++);
-        line.entries.emplace_back(master, *value++);
-        all_relevant_dofs.add_index(master);
-      }
-      lines.push_back(line);
-    }
-}
-
-template <int dim>
-std::vector<SpatialVector<dim>> SurfaceMap<dim>::gather(const Vector &values) const
-{
-  std::vector<SpatialVector<dim>> gathered(dofs.size(), SpatialVector<dim>::Zero());
-  for (const auto &[node, local] : owned_nodes)
-    for (unsigned int d = 0; d < dim; ++d)
-      gathered[node][d] = values.local_element(local[d]);
-  if (dealii::Utilities::MPI::n_mpi_processes(discretization->communicator()) > 1)
-    MPI_Allreduce(MPI_IN_PLACE, gathered.data(), static_cast<int>(dim * gathered.size()), MPI_DOUBLE, MPI_SUM,
-                  discretization->communicator());
-  return gathered;
+  this->set_nodes(std::move(all_node_dofs));
 }
 
 template <int dim>
 std::vector<SpatialVector<dim>> SurfaceMap<dim>::positions(const Vector &displacement) const
 {
-  std::vector<SpatialVector<dim>> x = gather(displacement);
+  std::vector<SpatialVector<dim>> x = this->gather(displacement);
   for (unsigned int node = 0; node < x.size(); ++node)
     x[node] += contact_surface.reference_positions[node];
   return x;
-}
-
-template <int dim>
-void SurfaceMap<dim>::add_to_owners(const std::vector<SpatialVector<dim>> &nodal_forces, Vector &forces) const
-{
-  const std::vector<SpatialVector<dim>> *total = &nodal_forces;
-  std::vector<SpatialVector<dim>> summed;
-  if (dealii::Utilities::MPI::n_mpi_processes(discretization->communicator()) > 1)
-  {
-    summed = nodal_forces;
-    MPI_Allreduce(MPI_IN_PLACE, summed.data(), static_cast<int>(dim * summed.size()), MPI_DOUBLE, MPI_SUM,
-                  discretization->communicator());
-    total = &summed;
-  }
-  for (const auto &[node, local] : owned_nodes)
-    for (unsigned int d = 0; d < dim; ++d)
-      forces.local_element(local[d]) += (*total)[node][d];
-}
-
-template <int dim>
-void SurfaceMap<dim>::add_remote_hanging_constraints(dealii::AffineConstraints<double> &constraints) const
-{
-  for (const auto &line : lines)
-    if (!constraints.is_constrained(line.index))
-    {
-      constraints.add_line(line.index);
-      constraints.add_entries(line.index, line.entries);
-    }
 }
 
 template class SurfaceMap<2>;

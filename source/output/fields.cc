@@ -146,7 +146,7 @@ typename Fields<dim>::NodalContact Fields<dim>::project_contact(const SceneForce
   const ContactSurface<dim> &surface = map->surface();
   std::vector<double> pressures(surface.n_nodes(), 0.), gaps(surface.n_nodes(), 0.),
       areas(surface.n_nodes(), 0.);
-  for (const auto &term : forces.contacts)
+  for (const auto &term : forces.surface_contacts)
   {
     const std::vector<SpatialVector<dim>> nodal_forces = term->nodal_forces();
     const std::vector<double> nodal_areas = term->nodal_areas();

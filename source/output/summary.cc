@@ -3,6 +3,7 @@
 
 #include "signorini/base/exceptions.h"
 #include "signorini/base/version.h"
+#include "signorini/output/collisions.h"
 #include "signorini/output/exact_solution.h"
 #include "signorini/output/statistics.h"
 
@@ -55,6 +56,19 @@ Json describe_supports(const Results<dim> &results)
 }
 
 template <int dim>
+Json describe_collisions(const Results<dim> &results)
+{
+  Json collisions = Json::array();
+  for (const Collision &collision : find_collisions(results.history))
+    collisions.push_back({{"one", results.parameters->bodies[collision.one].name},
+                          {"other", results.parameters->bodies[collision.other].name},
+                          {"begin", collision.begin},
+                          {"end", collision.end},
+                          {"outcome", outcome(collision)}});
+  return collisions;
+}
+
+template <int dim>
 Json describe_contact(const Results<dim> &results)
 {
   const contact::ContactMeasures<dim> &contact = results.contact;
@@ -72,6 +86,8 @@ Json describe_contact(const Results<dim> &results)
                      {"max_penetration_over_h", results.max_penetration_over_thickness},
                      {"max_pressure", results.max_pressure},
                      {"area", results.max_area}}}};
+  if (results.has_ledger)
+    description["collisions"] = describe_collisions(results);
   if (results.correction_change)
     description["correction_change"] = *results.correction_change;
   return description;

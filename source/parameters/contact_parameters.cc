@@ -28,6 +28,29 @@ const NameTable<ContactParameters::Integration> &integrations()
   return table;
 }
 
+const NameTable<ContactParameters::Potential> &potentials()
+{
+  static const NameTable<ContactParameters::Potential> table{
+      {"surface", ContactParameters::Potential::surface}, {"volume", ContactParameters::Potential::volume}};
+  return table;
+}
+
+/// What the volume potential does not have.
+void check_volume_potential(const SectionReader &section, const ContactParameters &contact)
+{
+  const auto refuse = [&](const std::string &what)
+  {
+    throw InputError(section.complain("Potential", "the volume potential has no " + what)
+                         .advise("remove that, or set Potential = surface"));
+  };
+  if (contact.damping)
+    refuse("damping: its forces act on elements, not on pairs of points");
+  if (contact.correction)
+    refuse("correction: it knows no pressures to start from");
+  if (!contact.penalty_factor)
+    refuse("choice of the penalty factor by errors: it knows no pressures to estimate them from");
+}
+
 bool is_in(const std::string &name, const std::vector<std::string> &names)
 {
   return std::find(names.begin(), names.end(), name) != names.end();
@@ -111,6 +134,10 @@ void declare_contact(Declarations &declarations, const DeclarationScope &scope)
       "α: stiffness of the contact relative to that of the cells behind it; auto (quasi-static runs): "
       "between 1 and 1e6, as large as the estimated errors ask for.");
   contact.add(
+      "Potential", one_of(names_in(potentials())), "surface", "",
+      "Contact of bodies: by the depth of points below the other surface, or by the overlap of elements "
+      "of degree 1 (Munjiza's). Obstacles are always met by the surface.");
+  contact.add(
       "Contact share", number_above_up_to(0., 1.), "0.25", "",
       "Penalty factor = auto: square of the estimated error by contact over that of discretization, which is "
       "about the ratio of their parts in the way of the loads; a quarter more is let pass.");
@@ -120,6 +147,10 @@ void declare_contact(Declarations &declarations, const DeclarationScope &scope)
               "Quadrature points in each direction of a face.");
   contact.add("Excluded pairs", any_text(), "", "",
               "Pairs of bodies, or of a body and an obstacle, that ignore each other: a:b, c:d.");
+  contact.add(
+      "Maximum penetration", number_above(0.), "0.5", "",
+      "In sizes of an element: a run in which bodies sink deeper into each other stops, as they could "
+      "pass through; set far above 1, they may. Of the volume potential 2/(dimension + 1) of that.");
   contact.add(
       "Allow initial overlap", true_or_false(), "false", "",
       "Start although bodies overlap by more than a tenth of a cell; the energy of the overlap is reported.");
@@ -148,10 +179,12 @@ ContactParameters read_contact(const ParameterText &text, const Declarations &in
   contact.penalty_factor.reset();
   if (section.value("Penalty factor") != "auto")
     contact.penalty_factor = section.number("Penalty factor");
+  contact.potential = section.choice("Potential", potentials());
   contact.contact_share = section.number("Contact share");
   contact.integration = section.choice("Integration", integrations());
   contact.quadrature_points = section.integer("Quadrature points");
   contact.excluded_pairs = read_pairs(section, bodies, obstacles);
+  contact.max_penetration = section.number("Maximum penetration");
   contact.allow_initial_overlap = section.boolean("Allow initial overlap");
   if (text.find_subsection("Contact/Damping") != nullptr)
     contact.damping =
@@ -162,6 +195,8 @@ ContactParameters read_contact(const ParameterText &text, const Declarations &in
     contact.correction =
         CorrectionParameters{correction.number("Tolerance"), correction.integer("Maximum steps")};
   }
+  if (contact.potential == ContactParameters::Potential::volume)
+    check_volume_potential(section, contact);
   return contact;
 }
 

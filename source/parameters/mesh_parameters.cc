@@ -39,6 +39,7 @@ const NameTable<MeshParameters::CellType> &cell_types(const unsigned int dimensi
 enum class MeshKind
 {
   hexahedra,
+  cut_box, ///< of tetrahedra, by its cells
   generated_tetrahedra,
   mesh_file
 };
@@ -48,7 +49,11 @@ MeshKind kind_of(const ParameterText &text, const unsigned int dimension, const 
   if (text.value(path, "Shape") == "file")
     return is_geometry_file(text.value(path, "File")) ? MeshKind::generated_tetrahedra : MeshKind::mesh_file;
   const bool has_tetrahedra = text.value(path, "Cell type") == cell_types(dimension)[1].first;
-  return has_tetrahedra ? MeshKind::generated_tetrahedra : MeshKind::hexahedra;
+  if (!has_tetrahedra)
+    return MeshKind::hexahedra;
+  const bool is_cut = text.value(path, "Shape", "box") == "box" && text.find(path, "Cells") != nullptr &&
+                      text.find(path, "Element size") == nullptr;
+  return is_cut ? MeshKind::cut_box : MeshKind::generated_tetrahedra;
 }
 
 const NameTable<MeshParameters::Part> &parts()
@@ -100,7 +105,7 @@ void read_box(const SectionReader &section, const unsigned int dimension, MeshPa
 {
   mesh.lower_corner = section.vector("Lower corner");
   mesh.upper_corner = section.vector("Upper corner");
-  if (mesh.cell_type == MeshParameters::CellType::hexahedra)
+  if (mesh.cell_type == MeshParameters::CellType::hexahedra || section.given("Cells"))
     mesh.cells = section.integers("Cells");
   for (unsigned int c = 0; c < dimension; ++c)
     if (mesh.lower_corner[c] >= mesh.upper_corner[c])
@@ -137,7 +142,10 @@ void declare_shape(SubsectionDeclaration &mesh, const DeclarationScope &scope, c
     mesh.add("Upper corner", scope.vector(), scope.components("1, 1, 1"), "m", "Box: largest coordinates.");
     if (has_cells)
       mesh.add("Cells", list_of(integer_from(1, 1000000), scope.dimension, scope.dimension),
-               scope.components("1, 1, 1"), "", "Box of hexahedra: coarse cells in each direction.");
+               scope.components("1, 1, 1"), "",
+               "Box: coarse cells in each direction; each is cut into 6 tetrahedra (2 triangles) where the "
+               "box is of "
+               "these and has no Element size.");
   }
   if (shape_is("ball") || shape_is("cylinder"))
     mesh.add("Radius", positive_length(), "1", "m", "Ball and cylinder: radius.");
@@ -223,11 +231,12 @@ void declare_mesh(Declarations &declarations, const DeclarationScope &scope, con
   mesh.add("Cell type", one_of(types), types[!all && scope.chosen(path, "Shape", "file", "box") ? 1 : 0], "",
            "What the mesh is made of; in 2-D quadrilaterals or triangles. From a file always tetrahedra "
            "(triangles).");
-  declare_shape(mesh, scope, path, all || kind == MeshKind::hexahedra);
+  declare_shape(mesh, scope, path, all || kind == MeshKind::hexahedra || kind == MeshKind::cut_box);
   if (all || kind == MeshKind::generated_tetrahedra)
     mesh.add_required(
         "Element size", positive_length(), "m",
-        "Tetrahedra, but not from mesh files: length of their edges, before Refinements and Grading.");
+        "Tetrahedra, but not from mesh files, nor of boxes with Cells: length of their edges, before "
+        "Refinements and Grading.");
   if (all || kind != MeshKind::mesh_file)
     mesh.add("Refinements", integer_from(0, 12), "0", "",
              "How often all coarse cells are halved in each direction; of tetrahedra: Element size. Not of "
@@ -259,7 +268,13 @@ MeshParameters read_mesh(const ParameterText &text, const Declarations &in_use, 
               .advise("remove 'Grading', and make the mesh as fine as is needed where it was made"));
     return mesh;
   }
-  if (mesh.cell_type == MeshParameters::CellType::tetrahedra)
+  const bool is_cut_box =
+      mesh.cell_type == MeshParameters::CellType::tetrahedra && !section.given("Element size");
+  if (is_cut_box && text.find_subsection(grading) != nullptr)
+    throw InputError(SectionReader(text, in_use, grading, dimension)
+                         .complain("a box of tetrahedra with 'Cells' cannot be graded")
+                         .advise("give 'Element size' instead of 'Cells'"));
+  if (mesh.cell_type == MeshParameters::CellType::tetrahedra && !is_cut_box)
     mesh.element_size = section.number("Element size");
   mesh.refinements = section.integer("Refinements");
   if (text.find_subsection(grading) != nullptr)

@@ -126,6 +126,40 @@ void check_contact_error(const ParameterText &text, const Parameters &parameters
                          .advise("give a number such as 10, or remove the subsection"));
 }
 
+/// The volume potential knows only the corners of elements.
+void check_degree_of_potential(const ParameterText &text, const Parameters &parameters)
+{
+  if (parameters.contact && parameters.contact->potential == ContactParameters::Potential::volume &&
+      parameters.degree > 1)
+    throw InputError(Complaint("the volume potential is one of elements of degree 1")
+                         .at(text.where("Contact", "Potential"))
+                         .found(fmt::format("Degree = {}", parameters.degree))
+                         .expected("Degree = 1")
+                         .advise("set Degree = 1, or Potential = surface"));
+}
+
+/// Tetrahedra are not refined one by one: their meshes are made anew, between equilibria and from a known shape.
+void check_adaptable(const ParameterText &text, const Parameters &parameters)
+{
+  if (!parameters.adaptivity)
+    return;
+  const bool is_explicit = std::holds_alternative<ExplicitParameters>(parameters.solver);
+  const auto stays = [is_explicit](const BodyParameters &body)
+  {
+    return body.mesh.cell_type == MeshParameters::CellType::tetrahedra &&
+           (is_explicit || body.mesh.mesh_of_file);
+  };
+  if (std::all_of(parameters.bodies.begin(), parameters.bodies.end(), stays))
+    throw InputError(
+        Complaint("'Adaptivity' finds no mesh that it could change")
+            .at(text.where("Adaptivity"))
+            .found(is_explicit ? "all bodies are of tetrahedra, whose meshes change only in quasi-static runs"
+                               : "all meshes come from mesh files, beyond which their shapes are not known")
+            .expected(is_explicit ? "a body of hexahedra" : "a generated mesh, or a shape from a file")
+            .advise(is_explicit ? "remove 'Adaptivity', or run 'Quasi-static'"
+                                : "remove 'Adaptivity', or take the shape as STEP or STL file"));
+}
+
 void check_densities(const ParameterText &text, const Parameters &parameters)
 {
   const bool is_explicit = std::holds_alternative<ExplicitParameters>(parameters.solver);
@@ -169,6 +203,8 @@ void check_together(const ParameterText &text, const Parameters &parameters)
   else
     check_explicit(text, parameters);
   check_contact_error(text, parameters);
+  check_degree_of_potential(text, parameters);
+  check_adaptable(text, parameters);
   check_densities(text, parameters);
   for (const BodyParameters &body : parameters.bodies)
     check_expressions(text, body, parameters.dimension, end_time);

@@ -37,6 +37,8 @@ const std::vector<FactorEntry> &factor_entries()
        "Further runs with 'Adaptivity' and so many 'Maximum cycles'. Without both lists all runs have the "
        "file's own mesh."},
       {Factor::degree, "Degrees", list_of(integer_from(1, 2), 1, 2), "", "Values of 'Degree'."},
+      {Factor::potential, "Potentials", any_text(), "Contact",
+       "Values of 'Contact/Potential', separated by commas."},
       {Factor::penalty_factor, "Penalty factors", any_text(), "Contact",
        "Values of 'Contact/Penalty factor', separated by commas."},
       {Factor::linear_solver, "Linear solvers", any_text(), "Quasi-static",

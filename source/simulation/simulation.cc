@@ -82,6 +82,7 @@ void Simulation<dim>::list_parts()
   note(surface_map != nullptr, "contact surface", "no subsection Contact");
   note(scene.n_bodies() > 1 && surface_map, "contact of bodies",
        surface_map ? "one body only" : "no subsection Contact");
+  note(volume_map != nullptr, "volume potential", "Contact/Potential is not volume");
   note(!scene.obstacles.empty(), "contact with obstacles", "no obstacle");
   note(correction != nullptr, "contact correction", "no subsection Contact/Correction");
   note(!forces.damped_contacts.empty(), "contact damping", "no subsection Contact/Damping");
@@ -98,7 +99,7 @@ void Simulation<dim>::run()
 {
   const std::string &directory = parameters.output.directory;
   fields = std::make_unique<Fields<dim>>(directory);
-  fields->set_mesh(*discretization, surface_map.get());
+  fields->set_mesh(*discretization, map_of_pressures());
   progress.open_log(directory);
   if (dealii::Utilities::MPI::this_mpi_process(communicator) == 0)
     statistics = std::make_unique<Statistics>(directory + "/statistics.csv");
@@ -148,6 +149,12 @@ void Simulation<dim>::estimate_error()
   largest_energy = std::max(largest_energy, estimate.energy);
   if (estimate.energy + estimate.discretization <= std::max(1e-8 * largest_energy, 1e-20 * stiffness))
     estimate.forget_errors();
+}
+
+template <int dim>
+const SurfaceMap<dim> *Simulation<dim>::map_of_pressures() const
+{
+  return forces.surface_contacts.empty() ? nullptr : surface_map.get();
 }
 
 template <int dim>

@@ -4,6 +4,7 @@
 
 #include "signorini/adaptivity/contact_marking.h"
 #include "signorini/adaptivity/marking.h"
+#include "signorini/adaptivity/remeshing.h"
 #include "signorini/base/exceptions.h"
 
 #include <fmt/core.h>
@@ -80,18 +81,27 @@ template <int dim>
 void Simulation<dim>::adapt_mesh()
 {
   const auto section = run_time.enter("refinement");
-  mark_cells(results.estimate, *parameters.adaptivity, *discretization);
-  if (surface_map)
-    level_curved_contact(estimator->boundary_faces(), estimator->contact_pressures(), results.penalty_factor,
-                         *surface_map, *discretization);
-  discretization->adapt({&state.displacement});
+  const std::vector<PlacedSimplexMesh> new_meshes =
+      discretization->tetrahedra
+          ? make_adapted_meshes(results.estimate, *parameters.adaptivity, parameters.bodies, *discretization)
+          : std::vector<PlacedSimplexMesh>();
+  if (discretization->hexahedra)
+  {
+    mark_cells(results.estimate, *parameters.adaptivity, *discretization);
+    if (surface_map)
+      level_curved_contact(estimator->boundary_faces(), estimator->contact_pressures(),
+                           results.penalty_factor, *surface_map, *discretization);
+    discretization->adapt({&state.displacement});
+  }
+  if (discretization->tetrahedra)
+    discretization->replace_tetrahedra(new_meshes, {&state.displacement});
   build_on_mesh();
   // New supported nodes have values between those of the old ones, not their own.
   supports->impose(state.time, state.displacement);
   discretization->distribute(state.displacement);
   balance_work({&state.displacement});
   make_quasi_static_solver();
-  fields->set_mesh(*discretization, surface_map.get());
+  fields->set_mesh(*discretization, map_of_pressures());
   measure_bodies();
 }
 

@@ -70,8 +70,17 @@ void Simulation<dim>::build_contact()
   const contact::PotentialSettings settings = make_settings<dim>(parameters, results.penalty_factor);
   surface_map = std::make_unique<SurfaceMap<dim>>(scene, *discretization);
   results.has_contact = true;
-  if (scene.n_bodies() > 1)
-    forces.contacts.push_back(std::make_shared<ContactForce<dim>>(
+  if (scene.n_bodies() > 1 && parameters.contact->potential == ContactParameters::Potential::volume)
+  {
+    contact::VolumePotentialSettings volume_settings;
+    volume_settings.penalty_factor = results.penalty_factor;
+    volume_settings.excluded_body_pairs = settings.excluded_body_pairs;
+    volume_map = std::make_unique<VolumeMap<dim>>(scene, *discretization);
+    forces.contacts.push_back(std::make_shared<VolumeContactForce<dim>>("contact of bodies", *volume_map,
+                                                                        volume_settings, communicator));
+  }
+  else if (scene.n_bodies() > 1)
+    forces.surface_contacts.push_back(std::make_shared<ContactForce<dim>>(
         "contact of bodies", false, *surface_map, typename contact::ContactPotential<dim>::Obstacles(),
         settings, communicator));
   if (!scene.obstacles.empty())
@@ -80,11 +89,13 @@ void Simulation<dim>::build_contact()
     for (unsigned int one = 0; one < scene.n_bodies(); ++one)
       for (unsigned int other = 0; other < one; ++other)
         obstacles_only.excluded_body_pairs.emplace_back(one, other);
-    forces.contacts.push_back(std::make_shared<ContactForce<dim>>(
+    forces.surface_contacts.push_back(std::make_shared<ContactForce<dim>>(
         "contact with obstacles", true, *surface_map, scene.obstacles, obstacles_only, communicator));
   }
+  forces.contacts.insert(forces.contacts.end(), forces.surface_contacts.begin(),
+                         forces.surface_contacts.end());
   if (settings.damping_ratio)
-    forces.damped_contacts = forces.contacts;
+    forces.damped_contacts = forces.surface_contacts;
 }
 
 template <int dim>
@@ -99,7 +110,8 @@ contact::ContactMeasures<dim> Simulation<dim>::measure_contact() const
     if (other.max_penetration_over_thickness > total.max_penetration_over_thickness)
     {
       total.max_penetration_over_thickness = other.max_penetration_over_thickness;
-      total.deepest_facet = other.deepest_facet;
+      total.deepest_body = other.deepest_body;
+      total.deepest_thickness = other.deepest_thickness;
       total.deepest_position = other.deepest_position;
     }
     total.max_penetration = std::max(total.max_penetration, other.max_penetration);
@@ -186,9 +198,8 @@ void Simulation<dim>::check_initial_overlap()
   std::optional<InitialOverlap<dim>> overlap = search.find_gross(allowed);
   if (!overlap && measures.max_penetration_over_thickness > allowed)
   {
-    const Facet<dim> &facet = surface_map->surface().facets[measures.deepest_facet];
-    overlap = search.find_at(facet.body, measures.deepest_position);
-    overlap->thickness = facet.layer_thickness;
+    overlap = search.find_at(measures.deepest_body, measures.deepest_position);
+    overlap->thickness = measures.deepest_thickness;
   }
   if (!overlap)
     return;
@@ -231,14 +242,17 @@ template <int dim>
 std::optional<Complaint>
 Simulation<dim>::find_deep_penetration(const contact::ContactMeasures<dim> &deepest) const
 {
-  constexpr double limit = 0.5;
+  // Deeper than 1/(dim + 1) of an element the volume potential pushes forward instead of back.
+  const double limit = !parameters.contact ? 0.
+                       : volume_map        ? parameters.contact->max_penetration * 2. / (dim + 1.)
+                                           : parameters.contact->max_penetration;
   if (deepest.max_penetration_over_thickness <= limit)
     return {};
   const bool is_a_leap = deepest.max_penetration_over_thickness > 2.;
   return Complaint(
              fmt::format("body '{}' sinks into what it touches by {:.3g} of its element size at t = {:.6g}",
-                         scene.body_names[surface_map->surface().facets[deepest.deepest_facet].body],
-                         deepest.max_penetration_over_thickness, state.time))
+                         scene.body_names[deepest.deepest_body], deepest.max_penetration_over_thickness,
+                         state.time))
       .at(format_point<dim>(deepest.deepest_position))
       .expected(fmt::format("at most {} of an element: deeper, it could pass through", limit))
       .advise(is_a_leap ? "it moves farther than an element in one step: check speeds, loads and units"

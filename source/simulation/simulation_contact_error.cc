@@ -44,7 +44,7 @@ template <int dim>
 void Simulation<dim>::set_penalty_factor(double penalty_factor)
 {
   results.penalty_factor = penalty_factor;
-  for (const auto &contact : forces.contacts)
+  for (const auto &contact : forces.surface_contacts)
     contact->set_penalty_factor(penalty_factor);
 }
 

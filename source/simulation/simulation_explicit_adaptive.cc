@@ -67,7 +67,7 @@ void Simulation<dim>::adapt_in_explicit_run(double time_step)
   const std::unique_ptr<ExplicitSolver<dim>> before = std::move(explicit_solver);
   make_explicit_solver();
   explicit_solver->resume(*before, momentum_change, state);
-  fields->set_mesh(*discretization, surface_map.get());
+  fields->set_mesh(*discretization, map_of_pressures());
   measure_bodies();
   const EnergyLedger &energy = explicit_solver->energy();
   progress.say(fmt::format("t {:.5g}  mesh adapted: {} cells, {} dofs, energy {:+.1e} of the largest",

@@ -82,7 +82,10 @@ void Simulation<dim>::record_bodies(const contact::PairForces<dim> &pair_forces)
       records[body].displacement[d] = sums[2 * (dim * body + d)] / results.body_volumes[body];
       records[body].velocity[d] = sums[2 * (dim * body + d) + 1] / results.body_volumes[body];
     }
-  results.history.push_back({state.time, records});
+  results.history.push_back({state.time, records, {}});
+  for (const auto &[pair, force] : pair_forces.bodies)
+    if (force != SpatialVector<dim>::Zero())
+      results.history.back().touching.push_back(pair);
 }
 
 template <int dim>

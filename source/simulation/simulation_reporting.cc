@@ -3,6 +3,7 @@
 #include "signorini/simulation/simulation.h"
 
 #include "signorini/base/exceptions.h"
+#include "signorini/output/collisions.h"
 #include "signorini/output/exact_solution.h"
 #include "signorini/output/summary.h"
 #include "signorini/physics/mass.h"
@@ -107,7 +108,7 @@ template <int dim>
 void Simulation<dim>::gather_samples()
 {
   std::vector<double> packed;
-  for (const auto &term : forces.contacts)
+  for (const auto &term : forces.surface_contacts)
     for (const contact::ContactSample<dim> &sample : term->samples())
     {
       packed.insert(packed.end(),
@@ -133,7 +134,7 @@ void Simulation<dim>::gather_samples()
 template <int dim>
 void Simulation<dim>::gather_nodal_pressures()
 {
-  for (const auto &term : forces.contacts)
+  for (const auto &term : forces.surface_contacts)
   {
     const std::vector<SpatialVector<dim>> nodal_forces = term->nodal_forces();
     const std::vector<double> areas = term->nodal_areas();
@@ -242,6 +243,21 @@ void Simulation<dim>::finish(std::optional<NumericalError> failure)
 }
 
 template <int dim>
+void Simulation<dim>::print_collisions()
+{
+  constexpr std::size_t most = 20;
+  if (!results.has_ledger)
+    return;
+  const std::vector<Collision> collisions = find_collisions(results.history);
+  for (std::size_t i = 0; i < std::min(most, collisions.size()); ++i)
+    progress.say(fmt::format("Collision of {} and {} from {:.6g} to {:.6g} s: {}",
+                             scene.body_names[collisions[i].one], scene.body_names[collisions[i].other],
+                             collisions[i].begin, collisions[i].end, outcome(collisions[i])));
+  if (collisions.size() > most)
+    progress.say(fmt::format("and {} further collisions", collisions.size() - most));
+}
+
+template <int dim>
 void Simulation<dim>::print_results()
 {
   if (results.has_contact)
@@ -259,6 +275,7 @@ void Simulation<dim>::print_results()
       progress.say(fmt::format("Contact force on {} from {} at the end: ({:.6g})", resultant.on,
                                resultant.from,
                                fmt::join(resultant.force.begin(), resultant.force.begin() + dim, ", ")));
+  print_collisions();
   if (results.has_ledger)
     progress.say(
         fmt::format("Energy ledger open by {:.2e} at most; momentum drift {:.2e} linear, {:.2e} angular",

@@ -2,6 +2,7 @@
 #include "signorini/simulation/size_estimate.h"
 
 #include "signorini/base/exceptions.h"
+#include "signorini/discretization/generated_simplex_mesh.h"
 
 #include <deal.II/base/mpi.h>
 
@@ -51,13 +52,18 @@ double n_coarse_cells(const MeshParameters &mesh, unsigned int dimension)
   const bool is_solid = dimension == 3;
   if (mesh.mesh_of_file)
     return static_cast<double>(mesh.mesh_of_file->cells.size());
-  // Measured: so many cells fill a cube, or a square, of the element size.
-  if (mesh.cell_type == MeshParameters::CellType::tetrahedra)
-    return (is_solid ? 4.6 : 2.3) * rough_volume(mesh, dimension) / std::pow(mesh.element_size, dimension);
+  if (mesh.cell_type == MeshParameters::CellType::tetrahedra && mesh.element_size > 0.)
+    return n_cells_of_cube(dimension) * rough_volume(mesh, dimension) /
+           std::pow(mesh.element_size, dimension);
   if (mesh.shape == MeshParameters::Shape::cylinder)
     return 10.;
   if (mesh.shape == MeshParameters::Shape::box)
-    return static_cast<double>(mesh.cells[0]) * mesh.cells[1] * (is_solid ? mesh.cells[2] : 1.);
+  {
+    const double n_blocks =
+        static_cast<double>(mesh.cells[0]) * mesh.cells[1] * (is_solid ? mesh.cells[2] : 1.);
+    const bool is_cut = mesh.cell_type == MeshParameters::CellType::tetrahedra;
+    return n_blocks * (is_cut ? (is_solid ? 6. : 2.) : 1.);
+  }
   switch (mesh.part)
   {
   case MeshParameters::Part::whole:

@@ -31,11 +31,11 @@ double compute_bulk_frequency_squared(const InternalForce<dim> &elasticity,
 }
 
 template <int dim>
-ContactBound compute_contact_bound(const std::vector<const ContactForce<dim> *> &contacts, const Vector &mass,
+ContactBound compute_contact_bound(const std::vector<const ContactTerm<dim> *> &contacts, const Vector &mass,
                                    const Discretization<dim> &discretization)
 {
   Vector stiffness = discretization.make_vector(), damping = discretization.make_vector();
-  for (const ContactForce<dim> *contact : contacts)
+  for (const ContactTerm<dim> *contact : contacts)
     contact->add_row_sum_bounds(stiffness, damping);
   discretization.collect(stiffness);
   discretization.collect(damping);
@@ -64,8 +64,8 @@ template double compute_bulk_frequency_squared<2>(const InternalForce<2> &,
 template double compute_bulk_frequency_squared<3>(const InternalForce<3> &,
                                                   const std::vector<MaterialParameters> &,
                                                   const Discretization<3> &);
-template ContactBound compute_contact_bound<2>(const std::vector<const ContactForce<2> *> &, const Vector &,
+template ContactBound compute_contact_bound<2>(const std::vector<const ContactTerm<2> *> &, const Vector &,
                                                const Discretization<2> &);
-template ContactBound compute_contact_bound<3>(const std::vector<const ContactForce<3> *> &, const Vector &,
+template ContactBound compute_contact_bound<3>(const std::vector<const ContactTerm<3> *> &, const Vector &,
                                                const Discretization<3> &);
 } // namespace signorini

@@ -98,7 +98,7 @@ double ExplicitSolver<dim>::stable_step() const
     n_searches += contact->n_searches();
   if (n_searches != n_searches_of_bound)
   {
-    std::vector<const ContactForce<dim> *> contacts;
+    std::vector<const ContactTerm<dim> *> contacts;
     for (const auto &contact : forces->contacts)
       contacts.push_back(contact.get());
     contact_bound = compute_contact_bound(contacts, mass, *discretization);

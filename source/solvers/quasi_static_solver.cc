@@ -23,13 +23,15 @@ template <int dim>
 QuasiStaticSolver<dim>::QuasiStaticSolver(const Discretization<dim> &the_discretization,
                                           const SupportedDofs<dim> &supported_dofs,
                                           const Scene<dim> &the_scene, const std::vector<bool> &held_bodies,
-                                          const SceneForces<dim> &forces, const SurfaceMap<dim> *surface_map,
+                                          const SceneForces<dim> &scene_forces,
+                                          const SurfaceMap<dim> *surface_map,
                                           const QuasiStaticParameters &quasi_static_parameters,
                                           RunTime &the_run_time)
     : discretization(&the_discretization), supports(&supported_dofs), scene(&the_scene),
-      is_body_held(held_bodies), map(surface_map), parameters(quasi_static_parameters),
-      run_time(&the_run_time),
-      balance(the_discretization, supported_dofs, the_scene.n_bodies(), forces, surface_map, the_run_time),
+      is_body_held(held_bodies), forces(&scene_forces), relevant_dofs(the_discretization.relevant_dofs),
+      parameters(quasi_static_parameters), run_time(&the_run_time),
+      balance(the_discretization, supported_dofs, the_scene.n_bodies(), scene_forces, surface_map,
+              the_run_time),
       regularization(the_discretization.make_vector())
 {
   const unsigned int n_dofs = discretization->owned_dofs.size();
@@ -49,8 +51,11 @@ QuasiStaticSolver<dim>::QuasiStaticSolver(const Discretization<dim> &the_discret
         regularization.local_element(dof) = 1e-6 * scene->materials[node.body].youngs_modulus *
                                             std::pow(volume[node.body], -2. / dim) *
                                             nodal_volume.local_element(dof);
-  if (map)
-    longest_step = 0.25 * map->surface().smallest_room();
+  if (surface_map)
+    longest_step = 0.25 * surface_map->surface().smallest_room();
+  for (const auto &contact : forces->contacts)
+    relevant_dofs.add_indices(contact->nodes().relevant_dofs());
+  relevant_dofs.compress();
 }
 
 template <int dim>
@@ -66,11 +71,11 @@ template <int dim>
 bool QuasiStaticSolver<dim>::make_constraints(double old_time, double time)
 {
   bool do_supports_move = false;
-  constraints.reinit(map ? map->relevant_dofs() : discretization->relevant_dofs);
+  constraints.reinit(relevant_dofs);
   constraints.merge(discretization->hanging_constraints,
                     dealii::AffineConstraints<double>::no_conflicts_allowed, true);
-  if (map)
-    map->add_remote_hanging_constraints(constraints);
+  for (const auto &contact : forces->contacts)
+    contact->nodes().add_remote_hanging_constraints(constraints);
   for (const auto &entry : supports->entries())
   {
     const double increment = supports->value(entry, time) - supports->value(entry, old_time);
@@ -91,9 +96,8 @@ bool QuasiStaticSolver<dim>::make_constraints(double old_time, double time)
 template <int dim>
 void QuasiStaticSolver<dim>::rebuild_matrix()
 {
-  dealii::TrilinosWrappers::SparsityPattern pattern(
-      discretization->owned_dofs, discretization->owned_dofs,
-      map ? map->relevant_dofs() : discretization->relevant_dofs, discretization->communicator());
+  dealii::TrilinosWrappers::SparsityPattern pattern(discretization->owned_dofs, discretization->owned_dofs,
+                                                    relevant_dofs, discretization->communicator());
   discretization->add_couplings(constraints, pattern);
   for (const auto &term : balance.terms())
     term->add_couplings(constraints, pattern);

@@ -50,8 +50,8 @@ std::vector<std::vector<StudySetting>> combine(const StudyParameters &study)
     }
   if (combinations.empty())
     combinations.emplace_back();
-  for (const Factor factor :
-       {Factor::degree, Factor::penalty_factor, Factor::linear_solver, Factor::step_factor})
+  for (const Factor factor : {Factor::degree, Factor::potential, Factor::penalty_factor,
+                              Factor::linear_solver, Factor::step_factor})
     multiply(combinations, study, factor);
   return combinations;
 }
@@ -74,6 +74,8 @@ public:
       return set("Adaptivity", "Maximum cycles", value);
     case Factor::degree:
       return set("", "Degree", value);
+    case Factor::potential:
+      return set("Contact", "Potential", value);
     case Factor::penalty_factor:
       return set("Contact", "Penalty factor", value);
     case Factor::linear_solver:
@@ -154,6 +156,8 @@ std::string factor_name(const Factor factor)
     return "adaptive";
   case Factor::degree:
     return "degree";
+  case Factor::potential:
+    return "potential";
   case Factor::penalty_factor:
     return "alpha";
   case Factor::linear_solver:

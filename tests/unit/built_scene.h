@@ -2,6 +2,7 @@
 #pragma once
 
 #include "signorini/contact/coupling/contact_force.h"
+#include "signorini/discretization/cut_box.h"
 #include "signorini/physics/mass.h"
 #include "signorini/solvers/explicit_solver.h"
 #include "signorini/solvers/quasi_static_solver.h"
@@ -45,6 +46,38 @@ inline BodyParameters make_box(const std::string &name, const Triple &upper,
   body.mesh.upper_corner = upper;
   body.mesh.cells = cells;
   body.material = make_material(Model::neo_hookean);
+  return body;
+}
+
+/// Curves the edges on the upper boundary of the last direction.
+inline void bend_top(double bend, SimplexMesh &mesh)
+{
+  const unsigned int last = mesh.dimension - 1;
+  for (const SimplexMesh::Face &face : mesh.faces)
+    if (face.boundary == 2 * last + 1)
+      for (unsigned int i = 0; i < mesh.dimension; ++i)
+      {
+        const unsigned int a = face.vertices[i], b = face.vertices[(i + 1) % mesh.dimension];
+        Triple middle;
+        for (unsigned int d = 0; d < 3; ++d)
+          middle[d] = .5 * (mesh.vertices[a][d] + mesh.vertices[b][d]);
+        middle[last] += bend;
+        mesh.edge_midpoints[{std::min(a, b), std::max(a, b)}] = middle;
+      }
+}
+
+/// The same box of simplices. `bend` moves the middles of the edges on the upper boundary of the last
+/// direction along it [m].
+inline BodyParameters make_simplex_box(const std::string &name, unsigned int dim, const Triple &upper,
+                                       const std::array<unsigned int, 3> &cells, double bend = 0.)
+{
+  BodyParameters body = make_box(name, upper, cells);
+  body.mesh.cell_type = MeshParameters::CellType::tetrahedra;
+  if (bend == 0.)
+    return body;
+  auto mesh = std::make_shared<SimplexMesh>(make_cut_box(body.mesh, dim));
+  bend_top(bend, *mesh);
+  body.mesh.mesh_of_file = mesh;
   return body;
 }
 
@@ -160,11 +193,13 @@ struct BuiltScene
 
   std::shared_ptr<ContactForce<dim>> add_contact(const contact::PotentialSettings &settings)
   {
-    forces.contacts.push_back(std::make_shared<ContactForce<dim>>("contact", !scene.obstacles.empty(), map,
-                                                                  scene.obstacles, settings, MPI_COMM_WORLD));
+    const auto contact = std::make_shared<ContactForce<dim>>("contact", !scene.obstacles.empty(), map,
+                                                             scene.obstacles, settings, MPI_COMM_WORLD);
+    forces.contacts.push_back(contact);
+    forces.surface_contacts.push_back(contact);
     if (settings.damping_ratio)
-      forces.damped_contacts = forces.contacts;
-    return forces.contacts.back();
+      forces.damped_contacts.push_back(contact);
+    return contact;
   }
 
   /// Free entries: neither hanging nor supported.

@@ -14,7 +14,8 @@ namespace signorini
 ///
 /// *Discretisation:* η_K² = ∫_K (σ* − σ_h) : C⁻¹ : (σ* − σ_h) dV with a recovered stress σ*, which on
 /// boundary faces is made to balance what is known of their traction t: σ* n = t with t of the loads, of
-/// contact, or zero, in every component that no support prescribes. A free face and a face under contact
+/// contact, or zero, in every component that no support prescribes (unless bodies touch by the volume
+/// potential, which knows no traction). A free face and a face under contact
 /// pressure are not the same.
 ///
 /// *Contact:* η_K² = Σ_q A_q k_A d_q² over the points of the cell's facets. Load controlled, the penalty
@@ -48,6 +49,7 @@ private:
   const Scene<dim> *scene;
   const SceneForces<dim> *forces;
   const SurfaceMap<dim> *map;
+  const bool are_tractions_known; ///< not where bodies touch by the volume potential
   StressRecovery<dim> recovery;
   std::vector<BoundaryFace<dim>> faces;
 };

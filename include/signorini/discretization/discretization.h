@@ -45,6 +45,11 @@ public:
   /// the rank that had those they came from.
   void adapt(const std::vector<Vector *> &values);
 
+  /// Puts other meshes in the place of those of the tetrahedra, the same ones on every rank, numbers
+  /// everything anew and carries `values` over by interpolation (collective). Whatever was made from this
+  /// object before is void.
+  void replace_tetrahedra(const std::vector<PlacedSimplexMesh> &meshes, const std::vector<Vector *> &values);
+
   /// Largest sum of `weights`, one for each own cell, of any rank over the mean of all ranks (collective).
   double imbalance(const std::vector<unsigned int> &weights) const;
 
@@ -109,6 +114,10 @@ public:
 
 private:
   void set_up();
+  /// This part's own values of some vectors, [vector].
+  static std::vector<Vector> extract(const MeshPart<dim> &part, const std::vector<Vector *> &values);
+  /// Forgets all that depends on the meshes, numbers them and makes the vectors new.
+  void set_up_anew(const std::vector<Vector *> &values);
   /// Numbers everything anew after `change` of the mesh and carries `values` over.
   void change_mesh(const std::vector<Vector *> &values, const std::function<void()> &change);
   void number_dofs();

@@ -7,6 +7,12 @@
 
 namespace signorini
 {
+/// Measured: so many cells Gmsh makes in a cube (square) of the edge length that it is asked for.
+constexpr double n_cells_of_cube(unsigned int dimension)
+{
+  return dimension == 3 ? 4.6 : 2.3;
+}
+
 /// A mesh of tetrahedra (triangles) of a box, ball or cylinder, or of the shape in a file, made by Gmsh: the
 /// same on every rank and in every run. Boundaries are named as boundary_names() says.
 ///
@@ -16,7 +22,8 @@ namespace signorini
 SimplexMesh generate_simplex_mesh(const MeshParameters &parameters, unsigned int dimension,
                                   unsigned int degree, const SizeField &size);
 
-/// The mesh of a body of tetrahedra as its parameters say: that of its mesh file, or a generated one.
+/// The mesh of a body of tetrahedra as its parameters say: that of its mesh file, a cut box
+/// (see make_cut_box()), or one made by Gmsh.
 SimplexMesh make_simplex_body_mesh(const MeshParameters &parameters, unsigned int dimension,
                                    unsigned int degree);
 } // namespace signorini

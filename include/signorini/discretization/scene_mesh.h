@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
+#include "signorini/discretization/generated_simplex_mesh.h"
 #include "signorini/discretization/placement.h"
 #include "signorini/discretization/tetrahedral_part.h"
 #include "signorini/parameters/parameters.h"
@@ -47,8 +48,13 @@ template <int dim>
 std::unique_ptr<dealii::parallel::distributed::Triangulation<dim>>
 make_scene_mesh(const std::vector<BodyParameters> &bodies, const MPI_Comm &communicator);
 
+/// Edge lengths [m] in the own coordinates of a body, by its index.
+using SizeOfBody = std::function<SizeField(unsigned int)>;
+
 /// The meshes of all bodies of tetrahedra, where the bodies stand in the scene; curved edges for degree 2.
+/// With `size_of_body` those that do not come from a mesh file are made with these sizes instead of the
+/// parameters'.
 template <int dim>
 std::vector<PlacedSimplexMesh> place_simplex_meshes(const std::vector<BodyParameters> &bodies,
-                                                    unsigned int degree);
+                                                    unsigned int degree, const SizeOfBody &size_of_body = {});
 } // namespace signorini

@@ -44,6 +44,7 @@ struct HistoryRow
 {
   double time = 0.;
   std::vector<BodyRecord> bodies;
+  std::vector<std::pair<unsigned int, unsigned int>> touching; ///< bodies with a force between them, sorted
 };
 
 /// A part of the program that the scene did not need.

@@ -61,9 +61,10 @@ struct MeshParameters
   std::array<unsigned int, 3> cells{1, 1, 1}; ///< box: coarse cells a direction
   double radius = 1.;                         ///< ball, cylinder [m]
   double length = 1.;                         ///< cylinder [m]
-  double element_size = 0.;         ///< generated tetrahedra: length of edges, halved by every refinement [m]
-  std::string file;                 ///< as it can be opened from the working directory
-  std::vector<std::string> regions; ///< of the file, those that are the body; none: all
+  double element_size =
+      0.;           ///< tetrahedra of Gmsh: length of edges, halved by every refinement; 0: a cut box [m]
+  std::string file; ///< as it can be opened from the working directory
+  std::vector<std::string> regions;                ///< of the file, those that are the body; none: all
   std::shared_ptr<const SimplexMesh> mesh_of_file; ///< checked; null unless the shape is that of a mesh file
   std::shared_ptr<const SimplexMesh>
       surface_of_file;          ///< faces only; null unless Gmsh shall mesh the file's shape
@@ -161,6 +162,12 @@ struct ContactParameters
     face_quadrature,
     face_segments
   };
+  enum class Potential
+  {
+    surface, ///< by the depth below the other body's surface
+    volume   ///< by the overlap of elements
+  };
+  Potential potential = Potential::surface;
   std::optional<double> penalty_factor = 10.; ///< α > 0; none: chosen by the estimated errors
   double contact_share =
       0.25; ///< of the squared error by contact in that of discretisation, for the choice of α
@@ -169,6 +176,7 @@ struct ContactParameters
   std::vector<std::pair<std::string, std::string>>
       excluded_pairs; ///< names of two bodies, or a body and an obstacle
   bool allow_initial_overlap = false;
+  double max_penetration = 0.5; ///< over the size of an element: deeper, the run stops
   std::optional<DampingParameters> damping;
   std::optional<CorrectionParameters> correction; ///< quasi-static runs
 };
@@ -239,6 +247,7 @@ struct StudyParameters
     uniform_refinements, ///< levels added to the mesh of every body, without adaptivity
     adaptive_cycles,     ///< Adaptivity/Maximum cycles
     degree,
+    potential,
     penalty_factor,
     linear_solver,
     step_factor ///< multiplies both step factors of `Explicit`

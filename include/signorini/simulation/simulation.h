@@ -8,6 +8,7 @@
 #include "signorini/base/exceptions.h"
 #include "signorini/base/run_time.h"
 #include "signorini/discretization/supports.h"
+#include "signorini/contact/coupling/volume_contact_force.h"
 #include "signorini/discretization/surface_map.h"
 #include "signorini/output/fields.h"
 #include "signorini/output/results.h"
@@ -97,6 +98,8 @@ private:
   void measure_bodies();
   void estimate_error();
   void write_fields();
+  /// Of the surface that contact pressures are known on; null where there are none.
+  const SurfaceMap<dim> *map_of_pressures() const;
   void append_contact(Statistics::Row &row) const;
   void append_resultants(Statistics::Row &row) const;
   void append_bodies(Statistics::Row &row) const;
@@ -110,6 +113,7 @@ private:
   void gather_nodal_pressures();
   void gather_extremes();
   void print_results();
+  void print_collisions();
   /// The part of print_plan() on refinement.
   void plan_adaptivity();
   double memory_mb() const;
@@ -124,6 +128,7 @@ private:
   std::unique_ptr<Discretization<dim>> discretization;
   std::unique_ptr<SupportedDofs<dim>> supports;
   std::unique_ptr<SurfaceMap<dim>> surface_map; ///< null without contact
+  std::unique_ptr<VolumeMap<dim>> volume_map;   ///< null without the volume potential
   SceneForces<dim> forces;
   Vector nodal_volume; ///< set when the run begins
   State state;

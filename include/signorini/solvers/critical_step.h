@@ -23,7 +23,7 @@ struct ContactBound
 };
 
 template <int dim>
-ContactBound compute_contact_bound(const std::vector<const ContactForce<dim> *> &contacts, const Vector &mass,
+ContactBound compute_contact_bound(const std::vector<const ContactTerm<dim> *> &contacts, const Vector &mass,
                                    const Discretization<dim> &discretization);
 
 /// Stability bound of the central-difference scheme with damping forces taken from the velocity half a step

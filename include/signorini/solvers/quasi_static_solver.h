@@ -83,7 +83,8 @@ private:
   const SupportedDofs<dim> *supports;
   const Scene<dim> *scene;
   std::vector<bool> is_body_held;
-  const SurfaceMap<dim> *map;
+  const SceneForces<dim> *forces;
+  dealii::IndexSet relevant_dofs; ///< to this rank's cells, or to contact
   QuasiStaticParameters parameters;
   RunTime *run_time;
   std::unique_ptr<LinearSolver> linear_solver;

@@ -15,7 +15,8 @@ struct SceneForces
 {
   std::shared_ptr<InternalForce<dim>> elasticity;
   std::vector<std::shared_ptr<ForceTerm>> loads;
-  std::vector<std::shared_ptr<ContactForce<dim>>> contacts;
-  std::vector<std::shared_ptr<ContactForce<dim>>> damped_contacts; ///< those of `contacts` with damping
+  std::vector<std::shared_ptr<ContactTerm<dim>>> contacts;
+  std::vector<std::shared_ptr<ContactForce<dim>>> surface_contacts; ///< those of `contacts` by surfaces
+  std::vector<std::shared_ptr<ContactForce<dim>>> damped_contacts;  ///< of these, those with damping
 };
 } // namespace signorini

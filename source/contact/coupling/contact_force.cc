@@ -15,16 +15,6 @@ namespace signorini
 {
 namespace
 {
-template <int dim>
-std::vector<dealii::types::global_dof_index> collect_dofs(const SurfaceMap<dim> &map,
-                                                          const std::vector<unsigned int> &nodes)
-{
-  std::vector<dealii::types::global_dof_index> dofs;
-  for (const unsigned int node : nodes)
-    dofs.insert(dofs.end(), map.node_dofs(node).begin(), map.node_dofs(node).end());
-  return dofs;
-}
-
 /// The obstacles as seen from `origin`.
 template <int dim>
 typename contact::ContactPotential<dim>::Obstacles
@@ -82,16 +72,16 @@ ContactForce<dim>::ContactForce(const std::string &term_name, bool is_an_externa
                                 const SurfaceMap<dim> &surface_map,
                                 const typename contact::ContactPotential<dim>::Obstacles &obstacles,
                                 const contact::PotentialSettings &settings, const MPI_Comm &mpi_communicator)
-    : ForceTerm(term_name, Kind::contact, is_an_external_term), map(&surface_map),
-      potential(surface_map.surface(), move_to<dim>(surface_map.surface().origin, obstacles), settings),
-      communicator(mpi_communicator)
+    : ContactTerm<dim>(term_name, is_an_external_term, mpi_communicator), map(&surface_map),
+      potential(surface_map.surface(), move_to<dim>(surface_map.surface().origin, obstacles), settings)
 {
 }
 
 template <int dim>
 double ContactForce<dim>::renew(const State &state)
 {
-  return dealii::Utilities::MPI::sum(potential.update(map->positions(state.displacement)), communicator);
+  return dealii::Utilities::MPI::sum(potential.update(map->positions(state.displacement)),
+                                     this->communicator);
 }
 
 template <int dim>
@@ -106,7 +96,7 @@ void ContactForce<dim>::update(const State &state)
 template <int dim>
 double ContactForce<dim>::energy() const
 {
-  return dealii::Utilities::MPI::sum(potential.energy(), communicator);
+  return dealii::Utilities::MPI::sum(potential.energy(), this->communicator);
 }
 
 template <int dim>
@@ -123,7 +113,7 @@ double ContactForce<dim>::add_damping_force(const Vector &velocity, Vector &forc
   std::vector<SpatialVector<dim>> nodal(map->surface().n_nodes(), SpatialVector<dim>::Zero());
   const double power = potential.add_damping_forces(map->gather(velocity), nodal);
   map->add_to_owners(nodal, force);
-  return dealii::Utilities::MPI::sum(power, communicator);
+  return dealii::Utilities::MPI::sum(power, this->communicator);
 }
 
 template <int dim>
@@ -132,26 +122,14 @@ void ContactForce<dim>::add_couplings(const dealii::AffineConstraints<double> &c
 {
   potential.for_each_coupling(
       [&](const std::vector<unsigned int> &nodes)
-      { constraints.add_entries_local_to_global(collect_dofs(*map, nodes), pattern, false); });
+      { constraints.add_entries_local_to_global(map->collect_dofs(nodes), pattern, false); });
 }
 
 template <int dim>
 void ContactForce<dim>::add_tangent(TangentSystem &system) const
 {
-  dealii::FullMatrix<double> matrix;
-  dealii::Vector<double> zero;
-  potential.for_each_tangent(
-      [&](const std::vector<unsigned int> &nodes, const Eigen::MatrixXd &block)
-      {
-        const unsigned int n = block.rows();
-        matrix.reinit(n, n);
-        zero.reinit(n);
-        for (unsigned int i = 0; i < n; ++i)
-          for (unsigned int j = 0; j < n; ++j)
-            matrix(i, j) = block(i, j);
-        system.constraints->distribute_local_to_global(matrix, zero, collect_dofs(*map, nodes), system.matrix,
-                                                       system.right_hand_side);
-      });
+  potential.for_each_tangent([&](const std::vector<unsigned int> &nodes, const Eigen::MatrixXd &block)
+                             { this->add_block(nodes, block, system); });
 }
 
 template <int dim>
@@ -160,7 +138,7 @@ std::vector<SpatialVector<dim>> ContactForce<dim>::nodal_forces() const
   std::vector<SpatialVector<dim>> forces(map->surface().n_nodes(), SpatialVector<dim>::Zero());
   potential.add_forces(forces);
   MPI_Allreduce(MPI_IN_PLACE, forces.data(), static_cast<int>(dim * forces.size()), MPI_DOUBLE, MPI_SUM,
-                communicator);
+                this->communicator);
   return forces;
 }
 
@@ -182,7 +160,7 @@ std::vector<double> ContactForce<dim>::nodal_areas() const
       areas[facet.nodes[i]] += shape.value[i] * sample.full_area;
   }
   MPI_Allreduce(MPI_IN_PLACE, areas.data(), static_cast<int>(areas.size()), MPI_DOUBLE, MPI_SUM,
-                communicator);
+                this->communicator);
   return areas;
 }
 
@@ -192,15 +170,8 @@ void ContactForce<dim>::add_row_sum_bounds(Vector &stiffness, Vector &damping) c
   const unsigned int n_nodes = map->surface().n_nodes();
   std::vector<double> nodal_stiffness(n_nodes, 0.), nodal_damping(n_nodes, 0.);
   potential.add_row_sum_bounds(nodal_stiffness, nodal_damping);
-  const auto spread = [&](const std::vector<double> &nodal, Vector &values)
-  {
-    std::vector<SpatialVector<dim>> equal(n_nodes);
-    for (unsigned int node = 0; node < n_nodes; ++node)
-      equal[node] = SpatialVector<dim>::Constant(nodal[node]);
-    map->add_to_owners(equal, values);
-  };
-  spread(nodal_stiffness, stiffness);
-  spread(nodal_damping, damping);
+  this->spread(nodal_stiffness, stiffness);
+  this->spread(nodal_damping, damping);
 }
 
 template <int dim>
@@ -216,7 +187,7 @@ std::vector<unsigned int> ContactForce<dim>::unseen_contact(const State &state) 
       if (is_active[f])
         known_depth[surface.facets[f].nodes[i]] = std::numeric_limits<double>::max();
   MPI_Allreduce(MPI_IN_PLACE, known_depth.data(), static_cast<int>(known_depth.size()), MPI_DOUBLE, MPI_MAX,
-                communicator);
+                this->communicator);
   return contact::find_unseen_contact(surface, potential.pair_list(), map->positions(state.displacement),
                                       known_depth);
 }
@@ -239,7 +210,8 @@ std::vector<double> ContactForce<dim>::projected_pressures() const
       sums[2 * facet.nodes[i] + 1] += area;
     }
   }
-  MPI_Allreduce(MPI_IN_PLACE, sums.data(), static_cast<int>(sums.size()), MPI_DOUBLE, MPI_SUM, communicator);
+  MPI_Allreduce(MPI_IN_PLACE, sums.data(), static_cast<int>(sums.size()), MPI_DOUBLE, MPI_SUM,
+                this->communicator);
   std::vector<double> pressures;
   for (unsigned int node = 0; node < surface.n_nodes(); ++node)
     pressures.push_back(sums[2 * node] / sums[2 * node + 1]);
@@ -297,51 +269,15 @@ std::vector<contact::ContactSample<dim>> ContactForce<dim>::samples() const
 template <int dim>
 contact::ContactMeasures<dim> ContactForce<dim>::measure() const
 {
-  using dealii::Utilities::MPI::max;
-  using dealii::Utilities::MPI::sum;
-  contact::ContactMeasures<dim> total = potential.measure();
-  const double deepest = max(total.max_penetration_over_thickness, communicator);
-  const unsigned int this_rank = dealii::Utilities::MPI::this_mpi_process(communicator);
-  const unsigned int deepest_rank =
-      max(total.max_penetration_over_thickness == deepest ? this_rank : 0u, communicator);
-  MPI_Bcast(&total.deepest_facet, 1, MPI_UNSIGNED, static_cast<int>(deepest_rank), communicator);
-  MPI_Bcast(total.deepest_position.data(), dim, MPI_DOUBLE, static_cast<int>(deepest_rank), communicator);
-  total.max_penetration_over_thickness = deepest;
-  total.deepest_position += map->surface().origin;
-  total.max_penetration = max(total.max_penetration, communicator);
-  total.max_pressure = max(total.max_pressure, communicator);
-  total.max_stiffness = max(total.max_stiffness, communicator);
-  total.area = sum(total.area, communicator);
-  total.n_pairs = sum(total.n_pairs, communicator);
-  total.n_active = sum(total.n_active, communicator);
-  MPI_Allreduce(MPI_IN_PLACE, total.resultants.data(), static_cast<int>(dim * total.resultants.size()),
-                MPI_DOUBLE, MPI_SUM, communicator);
-  return total;
+  return this->sum(potential.measure(), map->surface().origin);
 }
 
 template <int dim>
 contact::PairForces<dim> ContactForce<dim>::pair_forces(const State &state) const
 {
   using Velocities = std::vector<SpatialVector<dim>>;
-  const contact::PairForces<dim> own =
-      potential.pair_forces(state.velocity.size() > 0 ? map->gather(state.velocity) : Velocities());
-  contact::PairForces<dim> total;
-  for (const auto table : {&contact::PairForces<dim>::bodies, &contact::PairForces<dim>::obstacles})
-  {
-    std::vector<double> packed;
-    for (const auto &[pair, force] : own.*table)
-    {
-      packed.insert(packed.end(), {static_cast<double>(pair.first), static_cast<double>(pair.second)});
-      packed.insert(packed.end(), force.begin(), force.end());
-    }
-    for (const std::vector<double> &of_rank : dealii::Utilities::MPI::all_gather(communicator, packed))
-      for (auto value = of_rank.begin(); value != of_rank.end(); value += 2 + dim)
-        (total.*table)
-            .try_emplace({static_cast<unsigned int>(value[0]), static_cast<unsigned int>(value[1])},
-                         SpatialVector<dim>::Zero())
-            .first->second += Eigen::Map<const SpatialVector<dim>>(&value[2]);
-  }
-  return total;
+  return this->sum(
+      potential.pair_forces(state.velocity.size() > 0 ? map->gather(state.velocity) : Velocities()));
 }
 
 template class ContactForce<2>;

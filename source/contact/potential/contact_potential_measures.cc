@@ -42,7 +42,8 @@ void ContactPotential<dim>::add_to_measures(const NearPair &near, ContactMeasure
   if (depth / thickness > measures.max_penetration_over_thickness)
   {
     measures.max_penetration_over_thickness = depth / thickness;
-    measures.deepest_facet = near.pair.facet;
+    measures.deepest_body = surface.facets[near.pair.facet].body;
+    measures.deepest_thickness = surface.facets[near.pair.facet].layer_thickness;
     measures.deepest_position = near.foot.position;
   }
 

@@ -246,7 +246,8 @@ ContactMeasures<dim> VolumePotential<dim>::measure() const
       if (relative_depth > measures.max_penetration_over_thickness)
       {
         measures.max_penetration_over_thickness = relative_depth;
-        measures.deepest_facet = search.pairs()[pair].first;
+        measures.deepest_body = simplex(pair, 0).body;
+        measures.deepest_thickness = simplex(pair, side).layer_thickness;
         measures.deepest_position = state.deepest_position;
       }
     }

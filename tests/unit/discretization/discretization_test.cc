@@ -61,7 +61,7 @@ TYPED_TEST(Discretizations, TouchingBodiesShareNoDofs)
   const CellTable<dim> &cells = built.discretization.cells;
   std::array<std::set<unsigned int>, 2> dofs;
   for (unsigned int cell = 0; cell < cells.n_cells; ++cell)
-    dofs[cells.bodies[cell]].insert(cells.cell_dofs(cell), cells.cell_dofs(cell) + cells.n_cell_dofs());
+    dofs[cells.bodies[cell]].insert(cells.cell_dofs(cell), cells.cell_dofs(cell) + cells.n_cell_dofs(cell));
   EXPECT_EQ(dofs[0].size(), dim * std::pow(2 * TypeParam::degree + 1, dim));
   EXPECT_EQ(dofs[1].size(), dofs[0].size());
   EXPECT_EQ(dofs[0].size() + dofs[1].size(), built.discretization.owned_dofs.size());
@@ -93,8 +93,8 @@ TYPED_TEST(Discretizations, BallsDoNotShareTheirManifolds)
   const CellTable<dim> &cells = built.discretization.cells;
   std::array<std::vector<double>, 2> measures;
   for (unsigned int cell = 0; cell < cells.n_cells; ++cell)
-    for (unsigned int node = 0; node < cells.n_nodes; ++node)
-      measures[cells.bodies[cell]].push_back(cells.nodal_measures[cell * cells.n_nodes + node]);
+    for (unsigned int node = 0; node < cells.n_nodes(cell); ++node)
+      measures[cells.bodies[cell]].push_back(cells.cell_nodal_measures(cell)[node]);
   ASSERT_EQ(measures[0].size(), measures[1].size());
   ASSERT_FALSE(measures[0].empty());
   for (std::size_t i = 0; i < measures[0].size(); ++i)

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "built_scene.h"
 
-#include "signorini/contact/geometry/facet_shape.h"
-
-#include <deal.II/base/quadrature_lib.h>
+#include "signorini/base/to_eigen.h"
+#include "signorini/contact/geometry/segments.h"
+#include "signorini/discretization/placement.h"
 
 using namespace signorini;
 using namespace signorini::test;
@@ -20,18 +20,14 @@ struct SurfaceSums
 
   SurfaceSums(const ContactSurface<dim> &surface, unsigned int body, const SpatialVector<dim> &centre)
   {
-    const dealii::QGauss<dim - 1> quadrature(5);
     for (const Facet<dim> &facet : surface.facets)
       if (facet.body == body)
-        for (unsigned int q = 0; q < quadrature.size(); ++q)
+        for (const auto &point : contact::make_gauss_points<dim>(facet.type, 5))
         {
-          LocalPoint<dim> xi;
-          for (unsigned int d = 0; d + 1 < dim; ++d)
-            xi[d] = quadrature.point(q)[d];
-          const auto frame =
-              contact::evaluate_facet_frame(contact::gather_nodes(facet, surface.reference_positions), xi);
-          area += quadrature.weight(q) * frame.area_normal.norm();
-          area_normal += quadrature.weight(q) * frame.area_normal;
+          const auto frame = contact::evaluate_facet_frame(
+              contact::gather_nodes(facet, surface.reference_positions), point.xi);
+          area += point.weight * frame.area_normal.norm();
+          area_normal += point.weight * frame.area_normal;
           do_normals_point_out =
               do_normals_point_out && frame.area_normal.dot(surface.origin + frame.position - centre) > 0.;
         }
@@ -72,6 +68,33 @@ TYPED_TEST(SurfaceMaps, GradedTurnedBoxIsClosedAndHasItsArea)
   const SurfaceSums<dim> other_sums(built.map.surface(), 1, other_centre);
   EXPECT_NEAR(other_sums.area, 2. * dim, 1e-13);
   EXPECT_TRUE(other_sums.do_normals_point_out);
+}
+
+TYPED_TEST(SurfaceMaps, BoxOfSimplicesIsClosedAndHasItsArea)
+{
+  constexpr int dim = TypeParam::dim;
+  BodyParameters box = make_simplex_box("box", dim, {2., 1.5, 1.}, {3, 2, 2});
+  box.placement.rotation_angle = 50.;
+  box.placement.rotation_axis = {1., 1., 0.};
+  BuiltScene<dim> built({make_box("other", {1., 1., 1.}, {1, 1, 1}), box}, TypeParam::degree);
+  Placement<dim> placement(box.placement);
+  dealii::Point<dim> middle;
+  for (unsigned int d = 0; d < dim; ++d)
+    middle[d] = .5 * box.mesh.upper_corner[d];
+  const SurfaceSums<dim> sums(built.map.surface(), 1, to_eigen<dim>(placement.place(middle)));
+  const double area = dim == 2 ? 2. * (2. + 1.5) : 2. * (2. * 1.5 + 2. + 1.5);
+  EXPECT_NEAR(sums.area, area, 1e-12 * area);
+  EXPECT_LT(sums.area_normal.norm(), 1e-13 * area);
+  EXPECT_TRUE(sums.do_normals_point_out);
+  // Blocks of 2/3 × 3/4 × 1/2: a cell's height over an outer face is the block's edge across it.
+  for (const Facet<dim> &facet : built.map.surface().facets)
+    if (facet.body == 1)
+    {
+      const std::array<double, 3> edges{2. / 3., .75, .5};
+      EXPECT_TRUE(std::any_of(edges.begin(), edges.begin() + dim,
+                              [&](double edge) { return std::abs(facet.layer_thickness - edge) < 1e-12; }))
+          << facet.layer_thickness;
+    }
 }
 
 TYPED_TEST(SurfaceMaps, AreaOfASphereConverges)

@@ -10,7 +10,9 @@ using namespace signorini::test;
 
 namespace
 {
-/// A turned ball of distorted elements beside a cube with hanging nodes.
+/// A turned ball of distorted elements, a turned box of simplices, some with curved edges, and a cube with
+/// hanging nodes.
+template <int dim>
 std::vector<BodyParameters> make_bodies(Model ball_model, Model cube_model)
 {
   BodyParameters ball = make_ball("ball", .8, 0);
@@ -20,7 +22,11 @@ std::vector<BodyParameters> make_bodies(Model ball_model, Model cube_model)
   ball.material = make_material(ball_model, .3);
   BodyParameters cube = make_graded_cube();
   cube.material = make_material(cube_model, .45);
-  return {ball, cube};
+  BodyParameters box = make_simplex_box("box", dim, {1., 1.5, .8}, {2, 2, 2}, .05);
+  box.placement = ball.placement;
+  box.placement.shift = {-4., 1., 0.};
+  box.material = cube.material;
+  return {ball, box, cube};
 }
 
 template <typename T>
@@ -45,7 +51,7 @@ TYPED_TEST(InternalForces, ForceIsEnergyGradient)
   for (const auto &[one, other] : {std::pair(Model::neo_hookean, Model::linear_elastic),
                                    std::pair(Model::linear_elastic, Model::neo_hookean)})
   {
-    BuiltScene<TypeParam::dim> built(make_bodies(one, other), TypeParam::degree);
+    BuiltScene<TypeParam::dim> built(make_bodies<TypeParam::dim>(one, other), TypeParam::degree);
     expect_force_is_energy_gradient(built, *built.forces.elasticity, built.random_vector(.04));
   }
 }
@@ -55,21 +61,22 @@ TYPED_TEST(InternalForces, TangentIsForceGradient)
   for (const auto &[one, other] : {std::pair(Model::neo_hookean, Model::linear_elastic),
                                    std::pair(Model::linear_elastic, Model::neo_hookean)})
   {
-    BuiltScene<TypeParam::dim> built(make_bodies(one, other), TypeParam::degree);
+    BuiltScene<TypeParam::dim> built(make_bodies<TypeParam::dim>(one, other), TypeParam::degree);
     expect_tangent_is_force_gradient(built, *built.forces.elasticity, built.random_vector(.04));
   }
 }
 
 TYPED_TEST(InternalForces, NeoHookeanForcesBalanceInTheDeformedConfiguration)
 {
-  BuiltScene<TypeParam::dim> built(make_bodies(Model::neo_hookean, Model::neo_hookean), TypeParam::degree);
+  BuiltScene<TypeParam::dim> built(make_bodies<TypeParam::dim>(Model::neo_hookean, Model::neo_hookean),
+                                   TypeParam::degree);
   const Vector u = built.random_vector(.04);
   this->expect_balance(built, u, u);
 }
 
 TYPED_TEST(InternalForces, LinearElasticForcesBalanceInTheUndeformedConfiguration)
 {
-  BuiltScene<TypeParam::dim> built(make_bodies(Model::linear_elastic, Model::linear_elastic),
+  BuiltScene<TypeParam::dim> built(make_bodies<TypeParam::dim>(Model::linear_elastic, Model::linear_elastic),
                                    TypeParam::degree);
   this->expect_balance(built, built.random_vector(.04), built.discretization.make_vector());
 }
@@ -77,7 +84,8 @@ TYPED_TEST(InternalForces, LinearElasticForcesBalanceInTheUndeformedConfiguratio
 TYPED_TEST(InternalForces, NeoHookeanEnergyDoesNotSeeRigidMotion)
 {
   constexpr int dim = TypeParam::dim;
-  BuiltScene<dim> built(make_bodies(Model::neo_hookean, Model::neo_hookean), TypeParam::degree);
+  BuiltScene<dim> built(make_bodies<TypeParam::dim>(Model::neo_hookean, Model::neo_hookean),
+                        TypeParam::degree);
   const SpatialTensor<dim> R =
       Eigen::AngleAxisd(1.1, Eigen::Vector3d(0., 0., 1.)).toRotationMatrix().topLeftCorner<dim, dim>();
   const Vector u = built.random_vector(.04);
@@ -103,7 +111,8 @@ TYPED_TEST(InternalForces, NeoHookeanEnergyDoesNotSeeRigidMotion)
 TYPED_TEST(InternalForces, LinearDisplacementGivesOneStress)
 {
   constexpr int dim = TypeParam::dim;
-  BuiltScene<dim> built(make_bodies(Model::linear_elastic, Model::linear_elastic), TypeParam::degree);
+  BuiltScene<dim> built(make_bodies<TypeParam::dim>(Model::linear_elastic, Model::linear_elastic),
+                        TypeParam::degree);
   SpatialTensor<3> A;
   A << .02, -.01, .005, .03, -.015, .01, -.02, .004, .01;
   const SpatialTensor<dim> H = A.topLeftCorner<dim, dim>();

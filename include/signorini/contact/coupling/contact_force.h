@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
+#include "signorini/contact/coupling/contact_term.h"
 #include "signorini/contact/potential/contact_potential.h"
 #include "signorini/discretization/surface_map.h"
 #include "signorini/physics/force_term.h"
 
 namespace signorini
 {
-/// A contact potential as a force on the degrees of freedom.
+/// The surface contact potential as a force on the degrees of freedom.
 template <int dim>
-class ContactForce : public ForceTerm
+class ContactForce : public ContactTerm<dim>
 {
 public:
   /// `is_external`: contact with obstacles, which changes the momentum of the bodies. `map` must outlive this
@@ -30,15 +31,10 @@ public:
   /// Adds the damping forces at the given velocities; returns the power dissipated by all ranks [W].
   double add_damping_force(const Vector &velocity, Vector &force) const;
 
-  /// Adds the bounds of ContactPotential::add_row_sum_bounds() to every degree of freedom.
-  void add_row_sum_bounds(Vector &stiffness, Vector &damping) const;
-
-  /// Of all ranks together.
-  contact::ContactMeasures<dim> measure() const;
-
-  /// Resultants by pair over all ranks, the same on all of them, with the damping at the state's velocity
-  /// where it has one (collective).
-  contact::PairForces<dim> pair_forces(const State &state) const;
+  const NodeMap<dim> &nodes() const override { return *map; }
+  void add_row_sum_bounds(Vector &stiffness, Vector &damping) const override;
+  contact::ContactMeasures<dim> measure() const override;
+  contact::PairForces<dim> pair_forces(const State &state) const override;
 
   /// Force by node of the whole surface, without damping, the same on all ranks [N] (collective).
   std::vector<SpatialVector<dim>> nodal_forces() const;
@@ -78,6 +74,5 @@ public:
 private:
   const SurfaceMap<dim> *map;
   contact::ContactPotential<dim> potential;
-  MPI_Comm communicator;
 };
 } // namespace signorini

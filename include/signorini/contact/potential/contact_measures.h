@@ -21,7 +21,8 @@ struct ContactMeasures
   double area = 0.;               ///< undeformed area under positive pressure [m²; m in 2-D]
   unsigned int n_pairs = 0;       ///< point–target pairs in the list
   unsigned int n_active = 0;      ///< of these, those with positive depth
-  unsigned int deepest_facet = 0; ///< where max_penetration_over_thickness is reached
+  unsigned int deepest_body = 0;  ///< whose point or element reaches max_penetration_over_thickness
+  double deepest_thickness = 0.;  ///< h there [m]
   SpatialVector<dim> deepest_position = SpatialVector<dim>::Zero();
   std::vector<SpatialVector<dim>>
       resultants; ///< contact force on every body [N; N/m in 2-D], without damping

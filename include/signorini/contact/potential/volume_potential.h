@@ -81,7 +81,7 @@ public:
   /// Of a pair, the depth is that of the corners of its overlap below the nearest face, inner ones included,
   /// of either simplex, over the h of that one: it saturates before H/dim, deeper than which no point of a
   /// simplex lies. The pressure is 2 max φ, k_A d at flat layers; the area that of the second body's deformed
-  /// surface in the first one, inner faces cancelling; `deepest_facet` the first simplex.
+  /// surface in the first one, inner faces cancelling; the deepest body that of the first simplex.
   ContactMeasures<dim> measure() const;
 
   /// Resultants by pair of bodies.

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include "signorini/contact/coupling/contact_term.h"
+#include "signorini/contact/potential/volume_potential.h"
+#include "signorini/discretization/volume_map.h"
+
+namespace signorini
+{
+/// The volume contact potential as a force on the degrees of freedom: contact of bodies, without damping.
+template <int dim>
+class VolumeContactForce : public ContactTerm<dim>
+{
+public:
+  /// `map` must outlive this object.
+  VolumeContactForce(const std::string &name, const VolumeMap<dim> &map,
+                     const contact::VolumePotentialSettings &settings, const MPI_Comm &communicator);
+
+  double renew(const State &state) override;
+  void update(const State &state) override;
+  double energy() const override;
+  void add_force(Vector &force) const override;
+  void add_couplings(const dealii::AffineConstraints<double> &constraints,
+                     dealii::TrilinosWrappers::SparsityPattern &pattern) const override;
+  void add_tangent(TangentSystem &system) const override;
+  unsigned int n_searches() const override { return potential.n_searches(); }
+
+  const NodeMap<dim> &nodes() const override { return *map; }
+  void add_row_sum_bounds(Vector &stiffness, Vector &damping) const override;
+  contact::ContactMeasures<dim> measure() const override;
+  contact::PairForces<dim> pair_forces(const State &state) const override;
+
+private:
+  const VolumeMap<dim> *map;
+  contact::VolumePotential<dim> potential;
+};
+} // namespace signorini
