@@ -12,8 +12,8 @@ namespace signorini
 {
 namespace
 {
-/// A facet travels between ranks as its body, thickness, room and type, then for every node its dofs and
-/// position.
+/// A facet travels between ranks as its body, thickness, room, type and whether it is of a simplex, then for
+/// every node its dofs and position.
 template <int dim>
 struct TravellingNode
 {
@@ -132,7 +132,7 @@ private:
       facet.room = (is_whole_body ? 0.5 : 1.) * facet.layer_thickness;
     }
     packed.insert(packed.end(), {static_cast<double>(facet.body), facet.layer_thickness, facet.room,
-                                 static_cast<double>(facet.type)});
+                                 static_cast<double>(facet.type), is_simplex ? 1. : 0.});
     for (const auto &node : nodes)
     {
       packed.insert(packed.end(), node.dofs.begin(), node.dofs.end());
@@ -182,6 +182,53 @@ private:
   std::vector<bool> boundary_vertices; ///< of the tetrahedra
   std::vector<double> packed;
 };
+
+template <int dim>
+SpatialVector<dim> area_normal(const Facet<dim> &facet, const std::vector<SpatialVector<dim>> &positions)
+{
+  std::vector<TravellingNode<dim>> nodes;
+  for (unsigned int i = 0; i < facet.n_nodes(); ++i)
+    nodes.push_back({{}, positions[facet.nodes[i]]});
+  return mean_area_normal(nodes, corners_of(facet));
+}
+
+/// Gives the facets of simplices the mean thickness around them, by area: over the facets at each node that
+/// face the same way within 30°, then over the nodes. Heights of simplices differ at random from one to the
+/// next, and under one pressure depths would differ as they do.
+template <int dim>
+void smooth_thicknesses(const std::vector<bool> &is_of_simplices, ContactSurface<dim> &surface)
+{
+  constexpr double same_way = 0.866;
+  std::vector<std::vector<unsigned int>> facets_of_nodes(surface.n_nodes());
+  std::vector<SpatialVector<dim>> normals;
+  for (unsigned int f = 0; f < surface.facets.size(); ++f)
+  {
+    normals.push_back(area_normal(surface.facets[f], surface.reference_positions));
+    for (unsigned int i = 0; i < surface.facets[f].n_nodes(); ++i)
+      facets_of_nodes[surface.facets[f].nodes[i]].push_back(f);
+  }
+  std::vector<double> smooth;
+  for (unsigned int f = 0; f < surface.facets.size(); ++f)
+  {
+    const Facet<dim> &facet = surface.facets[f];
+    double sum = 0.;
+    for (const unsigned int corner : corners_of(facet))
+    {
+      double area = 0., volume = 0.;
+      for (const unsigned int other : facets_of_nodes[facet.nodes[corner]])
+        if (normals[f].dot(normals[other]) >= same_way * normals[f].norm() * normals[other].norm())
+        {
+          area += normals[other].norm();
+          volume += normals[other].norm() * surface.facets[other].layer_thickness;
+        }
+      sum += volume / area;
+    }
+    smooth.push_back(is_of_simplices[f] ? sum / static_cast<double>(corners_of(facet).size())
+                                        : facet.layer_thickness);
+  }
+  for (unsigned int f = 0; f < surface.facets.size(); ++f)
+    surface.facets[f].layer_thickness = smooth[f];
+}
 } // namespace
 
 template <int dim>
@@ -190,9 +237,11 @@ SurfaceMap<dim>::SurfaceMap(const Scene<dim> &scene, const Discretization<dim> &
 {
   const MPI_Comm &communicator = the_discretization.communicator();
   contact_surface.n_bodies = scene.n_bodies();
-  number_nodes(dealii::Utilities::MPI::all_gather(communicator,
-                                                  FacetCollector<dim>(the_discretization).pack_own_facets()),
-               dealii::Utilities::MPI::this_mpi_process(communicator));
+  const std::vector<bool> is_of_simplices =
+      number_nodes(dealii::Utilities::MPI::all_gather(
+                       communicator, FacetCollector<dim>(the_discretization).pack_own_facets()),
+                   dealii::Utilities::MPI::this_mpi_process(communicator));
+  smooth_thicknesses(is_of_simplices, contact_surface);
   contact_surface.origin = move_to_middle(contact_surface.reference_positions);
   for (Facet<dim> &facet : contact_surface.facets)
   {
@@ -202,11 +251,12 @@ SurfaceMap<dim>::SurfaceMap(const Scene<dim> &scene, const Discretization<dim> &
 }
 
 template <int dim>
-void SurfaceMap<dim>::number_nodes(const std::vector<std::vector<double>> &packed_facets,
-                                   unsigned int this_rank)
+std::vector<bool> SurfaceMap<dim>::number_nodes(const std::vector<std::vector<double>> &packed_facets,
+                                                unsigned int this_rank)
 {
   std::unordered_map<dealii::types::global_dof_index, unsigned int> node_of_dof;
   std::vector<typename NodeMap<dim>::NodeDofs> all_node_dofs;
+  std::vector<bool> is_of_simplices;
   for (unsigned int rank = 0; rank < packed_facets.size(); ++rank)
     for (auto value = packed_facets[rank].begin(); value != packed_facets[rank].end();)
     {
@@ -217,6 +267,7 @@ void SurfaceMap<dim>::number_nodes(const std::vector<std::vector<double>> &packe
       facet.layer_thickness = *value++;
       facet.room = *value++;
       facet.type = static_cast<FacetType>(*value++);
+      is_of_simplices.push_back(*value++ == 1.);
       for (unsigned int i = 0; i < facet.n_nodes(); ++i)
       {
         std::array<dealii::types::global_dof_index, dim> node_dofs;
@@ -236,6 +287,7 @@ void SurfaceMap<dim>::number_nodes(const std::vector<std::vector<double>> &packe
       contact_surface.facets.push_back(facet);
     }
   this->set_nodes(std::move(all_node_dofs));
+  return is_of_simplices;
 }
 
 template <int dim>

@@ -49,7 +49,8 @@ struct Facet : FacetElement<dim>
   std::array<unsigned int, FacetElement<dim>::max_n_nodes>
       nodes{};                 ///< indices into the surface's nodes; the first n_nodes() count
   unsigned int body = 0;       ///< index of the body it belongs to
-  double layer_thickness = 0.; ///< h: size of the element behind the face, along its normal [m]
+  double layer_thickness = 0.; ///< h: size of the element behind the face, along its normal; of simplices a
+                               ///< mean around the face [m]
   double room = 0.; ///< depth down to which the nearest way out leads through this face: h, or h/2 where the
                     ///< body is one element thick [m]
   double youngs_modulus = 0.; ///< E of that element [Pa]

@@ -21,7 +21,9 @@ public:
   std::vector<SpatialVector<dim>> positions(const Vector &displacement) const;
 
 private:
-  void number_nodes(const std::vector<std::vector<double>> &packed_facets, unsigned int this_rank);
+  /// Takes the facets of all ranks; returns which are of simplices.
+  std::vector<bool> number_nodes(const std::vector<std::vector<double>> &packed_facets,
+                                 unsigned int this_rank);
 
   ContactSurface<dim> contact_surface;
 };
