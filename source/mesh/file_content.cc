@@ -3,17 +3,22 @@
 
 #include "signorini/base/exceptions.h"
 
+#include <zlib.h>
+
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <filesystem>
-#include <fstream>
-#include <sstream>
+#include <memory>
 
 namespace signorini
 {
 std::string ending_of(const std::string &path)
 {
-  std::string ending = std::filesystem::path(path).extension().string();
+  std::filesystem::path name = path;
+  if (name.extension() == ".gz" && name.stem().extension() == ".inp")
+    name.replace_extension();
+  std::string ending = name.extension().string();
   std::transform(ending.begin(), ending.end(), ending.begin(),
                  [](const unsigned char character) { return std::tolower(character); });
   return ending;
@@ -22,14 +27,23 @@ std::string ending_of(const std::string &path)
 std::string read_content(const std::string &path)
 {
   std::error_code ignored;
-  std::ifstream stream(path, std::ios::binary);
-  if (!std::filesystem::is_regular_file(path, ignored) || !stream)
+  const bool is_file = std::filesystem::is_regular_file(path, ignored);
+  const std::unique_ptr<gzFile_s, int (*)(gzFile)> file(is_file ? gzopen(path.c_str(), "rb") : nullptr,
+                                                        gzclose);
+  if (!file)
     throw FileError(
         Complaint("the mesh file cannot be read")
             .at(path)
             .advise("give the name of an existing file; it is looked for beside the parameter file"));
-  std::ostringstream content;
-  content << stream.rdbuf();
-  return content.str();
+  std::string content;
+  std::array<char, 1 << 16> buffer;
+  int n_read = 0;
+  while ((n_read = gzread(file.get(), buffer.data(), buffer.size())) > 0)
+    content.append(buffer.data(), static_cast<std::size_t>(n_read));
+  if (n_read < 0)
+    throw FileError(Complaint("the mesh file cannot be unpacked")
+                        .at(path)
+                        .advise("get it again: it is cut off or damaged"));
+  return content;
 }
 } // namespace signorini

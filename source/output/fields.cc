@@ -148,11 +148,9 @@ typename Fields<dim>::NodalContact Fields<dim>::project_contact(const SceneForce
       areas(surface.n_nodes(), 0.);
   for (const auto &term : forces.surface_contacts)
   {
-    const std::vector<SpatialVector<dim>> nodal_forces = term->nodal_forces();
-    const std::vector<double> nodal_areas = term->nodal_areas();
+    const std::vector<double> of_term = term->projected_pressures();
     for (unsigned int node = 0; node < surface.n_nodes(); ++node)
-      if (nodal_areas[node] > 0.)
-        pressures[node] += nodal_forces[node].norm() / nodal_areas[node];
+      pressures[node] += of_term[node];
     for (const contact::ContactSample<dim> &sample : term->samples())
     {
       const Facet<dim> &facet = surface.facets[sample.facet];

@@ -45,6 +45,9 @@ const std::vector<ExactSolutionCase> &exact_solutions()
   static const ExactSolutionKey pressure{
       "Pressure", positive_number(), "", "Pa",
       "Patch: uniform contact pressure; must be that of the loads at the end time."};
+  static const ExactSolutionKey normal_force{
+      "Normal force", positive_number(), "", "N",
+      "Sliding contact: the constant force on the second body along the last axis."};
   static const std::string profile = "pressure profile (relative L2 distance)";
   static const std::vector<ExactSolutionCase> table{
       {"Hertz sphere",
@@ -67,10 +70,10 @@ const std::vector<ExactSolutionCase> &exact_solutions()
        {"contact pressure (worst point)", "projected contact pressure (worst node)",
         "normal stress (largest)", "normal stress (smallest)", "resultant",
         "other stresses over the pressure"}},
-      {"Sliding block",
-       {},
-       {quasi_static_run(), number_of_bodies(2), boxes_only(), number_of_obstacles(0), contact()},
-       {"ripple of the normal force", "largest tangential force over the normal one"}},
+      {"Sliding contact",
+       {normal_force},
+       {quasi_static_run(), number_of_bodies(2), number_of_obstacles(0), contact()},
+       {"mean normal force", "ripple of the normal force", "largest tangential force over the normal one"}},
       {"Bar impact",
        {},
        {explicit_run(), number_of_bodies(2), equal_boxes(), number_of_obstacles(0), contact(), shifts_only()},

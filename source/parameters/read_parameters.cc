@@ -138,7 +138,8 @@ void check_degree_of_potential(const ParameterText &text, const Parameters &para
                          .advise("set Degree = 1, or Potential = surface"));
 }
 
-/// Tetrahedra are not refined one by one: their meshes are made anew, between equilibria and from a known shape.
+/// Tetrahedra are not refined one by one: their meshes are made anew, between equilibria and from a known
+/// shape.
 void check_adaptable(const ParameterText &text, const Parameters &parameters)
 {
   if (!parameters.adaptivity)

@@ -136,14 +136,12 @@ void Simulation<dim>::gather_nodal_pressures()
 {
   for (const auto &term : forces.surface_contacts)
   {
-    const std::vector<SpatialVector<dim>> nodal_forces = term->nodal_forces();
-    const std::vector<double> areas = term->nodal_areas();
     for (const double pressure : term->projected_pressures())
+    {
       results.max_projected_pressure = std::max(results.max_projected_pressure, pressure);
-    const double largest_area = areas.empty() ? 0. : *std::max_element(areas.begin(), areas.end());
-    for (unsigned int node = 0; node < areas.size(); ++node)
-      if (areas[node] > 1e-9 * largest_area)
-        results.nodal_pressures.push_back(nodal_forces[node].norm() / areas[node]);
+      if (pressure > 0.)
+        results.nodal_pressures.push_back(pressure);
+    }
   }
 }
 

@@ -5,9 +5,11 @@
 
 namespace signorini
 {
-/// What follows the last dot of a file's name, with the dot, in lower case.
+/// What follows the last dot of a file's name, with the dot, in lower case; of a packed Abaqus file, .inp.gz,
+/// what stands before .gz.
 std::string ending_of(const std::string &path);
 
-/// All of a file. Throws FileError if it is no regular file or cannot be read.
+/// All of a file, unpacked if it was packed by gzip. Throws FileError if it is no regular file or cannot be
+/// read.
 std::string read_content(const std::string &path);
 } // namespace signorini

@@ -9,7 +9,6 @@
 
 #include <algorithm>
 #include <limits>
-#include <set>
 
 namespace signorini
 {
@@ -133,38 +132,6 @@ void ContactForce<dim>::add_tangent(TangentSystem &system) const
 }
 
 template <int dim>
-std::vector<SpatialVector<dim>> ContactForce<dim>::nodal_forces() const
-{
-  std::vector<SpatialVector<dim>> forces(map->surface().n_nodes(), SpatialVector<dim>::Zero());
-  potential.add_forces(forces);
-  MPI_Allreduce(MPI_IN_PLACE, forces.data(), static_cast<int>(dim * forces.size()), MPI_DOUBLE, MPI_SUM,
-                this->communicator);
-  return forces;
-}
-
-template <int dim>
-std::vector<double> ContactForce<dim>::nodal_areas() const
-{
-  // A point counts once however many surfaces it is near.
-  std::set<std::pair<unsigned int, std::array<double, dim - 1>>> known;
-  std::vector<double> areas(map->surface().n_nodes(), 0.);
-  for (const contact::ContactSample<dim> &sample : potential.samples())
-  {
-    std::array<double, dim - 1> xi;
-    std::copy(sample.xi.begin(), sample.xi.end(), xi.begin());
-    if (!known.emplace(sample.facet, xi).second)
-      continue;
-    const Facet<dim> &facet = map->surface().facets[sample.facet];
-    const auto shape = contact::evaluate_facet_shape(facet, sample.xi);
-    for (unsigned int i = 0; i < facet.n_nodes(); ++i)
-      areas[facet.nodes[i]] += shape.value[i] * sample.full_area;
-  }
-  MPI_Allreduce(MPI_IN_PLACE, areas.data(), static_cast<int>(areas.size()), MPI_DOUBLE, MPI_SUM,
-                this->communicator);
-  return areas;
-}
-
-template <int dim>
 void ContactForce<dim>::add_row_sum_bounds(Vector &stiffness, Vector &damping) const
 {
   const unsigned int n_nodes = map->surface().n_nodes();
@@ -201,8 +168,10 @@ std::vector<double> ContactForce<dim>::projected_pressures() const
   for (unsigned int f = 0; f < surface.facets.size(); ++f)
   {
     const Facet<dim> &facet = surface.facets[f];
-    if (!facet.owned)
-      continue;
+    const auto end = of_facets[f].begin() + facet.n_nodes();
+    if (!facet.owned ||
+        std::all_of(of_facets[f].begin(), end, [](double pressure) { return pressure == 0.; }))
+      continue; // where contact ends, as on a cut, its last faces count alone
     const double area = undeformed_area(facet, surface);
     for (unsigned int i = 0; i < facet.n_nodes(); ++i)
     {
@@ -214,7 +183,7 @@ std::vector<double> ContactForce<dim>::projected_pressures() const
                 this->communicator);
   std::vector<double> pressures;
   for (unsigned int node = 0; node < surface.n_nodes(); ++node)
-    pressures.push_back(sums[2 * node] / sums[2 * node + 1]);
+    pressures.push_back(sums[2 * node + 1] > 0. ? sums[2 * node] / sums[2 * node + 1] : 0.);
   return pressures;
 }
 

@@ -85,7 +85,6 @@ TYPED_TEST(MotionMarking, ContactThatIsComingIsRefinedAndContactThatIsGoneIsNot)
   EXPECT_LT(approach.built.discretization.n_cells(), (1u << dim) * n_of_file);
   EXPECT_EQ(approach.adapt(0., OtherCells::as_they_are), 0u);
   EXPECT_EQ(approach.adapt(0., OtherCells::coarser), 2u);
-  EXPECT_EQ(approach.built.discretization.n_cells(), n_of_file)
-      << "the mesh of the file, graded as it was";
+  EXPECT_EQ(approach.built.discretization.n_cells(), n_of_file) << "the mesh of the file, graded as it was";
 }
 } // namespace

@@ -115,7 +115,8 @@ TYPED_TEST(Explicit, LedgerOfContactOnAFloorClosesToSecondOrder)
     contact::PotentialSettings settings = make_settings(contact::Integration::face_quadrature);
     settings.damping_ratio = .3;
     built.add_contact(settings);
-    built.forces.loads.push_back(std::make_shared<DeadLoad<dim>>(built.scene, built.discretization, WeightShares::lumped_mass));
+    built.forces.loads.push_back(
+        std::make_shared<DeadLoad<dim>>(built.scene, built.discretization, WeightShares::lumped_mass));
     Run<dim> run(built);
     drift[halving] = run.advance(150 << halving, run.solver.stable_step() / (4 << halving));
     EXPECT_GT(run.solver.energy().dissipated, 0.);
@@ -135,7 +136,8 @@ TYPED_TEST(Explicit, FreeFallIsExact)
                         [](Parameters &p) {
                           p.gravity = {1., -3., 2.};
                         });
-  built.forces.loads.push_back(std::make_shared<DeadLoad<dim>>(built.scene, built.discretization, WeightShares::lumped_mass));
+  built.forces.loads.push_back(
+      std::make_shared<DeadLoad<dim>>(built.scene, built.discretization, WeightShares::lumped_mass));
   const SpatialVector<dim> start = SpatialVector<dim>::Constant(.4);
   built.state.velocity = built.interpolate([&](const SpatialVector<dim> &) { return start; });
   Run<dim> run(built);

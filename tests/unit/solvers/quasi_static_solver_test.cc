@@ -33,7 +33,8 @@ struct StaticRun
 template <int dim>
 void add_loads(BuiltScene<dim> &built)
 {
-  built.forces.loads.push_back(std::make_shared<DeadLoad<dim>>(built.scene, built.discretization, WeightShares::shape_integrals));
+  built.forces.loads.push_back(
+      std::make_shared<DeadLoad<dim>>(built.scene, built.discretization, WeightShares::shape_integrals));
 }
 
 /// Symmetry planes on the lower sides, so that the body is free to shorten and widen.

@@ -36,13 +36,6 @@ public:
   contact::ContactMeasures<dim> measure() const override;
   contact::PairForces<dim> pair_forces(const State &state) const override;
 
-  /// Force by node of the whole surface, without damping, the same on all ranks [N] (collective).
-  std::vector<SpatialVector<dim>> nodal_forces() const;
-
-  /// Area by node, ∫N dA over the sampled parts of the faces that face another surface, the same on all ranks
-  /// [m²; m in 2-D] (collective).
-  std::vector<double> nodal_areas() const;
-
   /// This rank's facets in a contact that they are too large to see at that state, see
   /// contact::find_unseen_contact() (collective).
   std::vector<unsigned int> unseen_contact(const State &state) const;
@@ -55,8 +48,8 @@ public:
   /// off below 0 [Pa].
   NodalPressures<dim> facet_pressures() const;
 
-  /// The same as a mean over all facets at a node of the surface, by area, on every rank, [node] [Pa]
-  /// (collective): without the noise of single points.
+  /// The same as a mean over the facets under pressure at a node of the surface, by area, on every rank,
+  /// [node] [Pa] (collective): without the noise of single points.
   std::vector<double> projected_pressures() const;
 
   /// See PairList::set_penalty_factor(); the energy is another one afterwards.
