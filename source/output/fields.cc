@@ -148,7 +148,7 @@ typename Fields<dim>::NodalContact Fields<dim>::project_contact(const SceneForce
       areas(surface.n_nodes(), 0.);
   for (const auto &term : forces.surface_contacts)
   {
-    const std::vector<double> of_term = term->projected_pressures();
+    const std::vector<double> of_term = term->nodal_pressures();
     for (unsigned int node = 0; node < surface.n_nodes(); ++node)
       pressures[node] += of_term[node];
     for (const contact::ContactSample<dim> &sample : term->samples())

@@ -137,11 +137,10 @@ void Simulation<dim>::gather_nodal_pressures()
   for (const auto &term : forces.surface_contacts)
   {
     for (const double pressure : term->projected_pressures())
-    {
       results.max_projected_pressure = std::max(results.max_projected_pressure, pressure);
+    for (const double pressure : term->nodal_pressures())
       if (pressure > 0.)
         results.nodal_pressures.push_back(pressure);
-    }
   }
 }
 

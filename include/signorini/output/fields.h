@@ -18,10 +18,9 @@ namespace signorini
 /// Writes solution_NNNN.vtu (and .pvtu) and keeps solution.pvd, the list of all of them, up to date.
 ///
 /// Point data: displacement [m], velocity [m/s] (explicit runs), contact_pressure [Pa] and gap [m] (with
-/// contact; the pressure, without damping, is that of the points, projected onto each face and averaged at
-/// the nodes; the gap is at most one layer thickness and negative where bodies overlap). Cell data: body,
-/// error_indicator (its share of the estimated error in the energy norm, both parts [J^½]), von_mises_stress
-/// and the components of the true stress [Pa].
+/// contact; of the pressure see ContactForce::nodal_pressures(); the gap is at most one layer thickness and
+/// negative where bodies overlap). Cell data: body, error_indicator (its share of the estimated error in the
+/// energy norm, both parts [J^½]), von_mises_stress and the components of the true stress [Pa].
 template <int dim>
 class Fields
 {

@@ -9,6 +9,8 @@
 
 #include <algorithm>
 #include <limits>
+#include <map>
+#include <set>
 
 namespace signorini
 {
@@ -63,6 +65,17 @@ Corners<dim> project_on_corners(const FacetType type, const Corners<dim> &moment
     measure += point.weight;
   }
   return mass.llt().solve(moments) * measure / area;
+}
+
+/// The middle nodes of the sides of quadratic triangles, with the ends of the sides.
+template <int dim>
+std::map<unsigned int, std::array<unsigned int, 2>> find_triangle_middles(const ContactSurface<dim> &surface)
+{
+  std::map<unsigned int, std::array<unsigned int, 2>> middles;
+  for (const Facet<dim> &facet : surface.facets)
+    for (unsigned int side = 0; side < 3 && facet.type == FacetType::triangle && facet.degree == 2; ++side)
+      middles[facet.nodes[3 + side]] = {facet.nodes[side], facet.nodes[(side + 1) % 3]};
+  return middles;
 }
 } // namespace
 
@@ -129,6 +142,60 @@ void ContactForce<dim>::add_tangent(TangentSystem &system) const
 {
   potential.for_each_tangent([&](const std::vector<unsigned int> &nodes, const Eigen::MatrixXd &block)
                              { this->add_block(nodes, block, system); });
+}
+
+template <int dim>
+std::vector<SpatialVector<dim>> ContactForce<dim>::nodal_forces() const
+{
+  std::vector<SpatialVector<dim>> forces(map->surface().n_nodes(), SpatialVector<dim>::Zero());
+  potential.add_forces(forces);
+  MPI_Allreduce(MPI_IN_PLACE, forces.data(), static_cast<int>(dim * forces.size()), MPI_DOUBLE, MPI_SUM,
+                this->communicator);
+  return forces;
+}
+
+template <int dim>
+std::vector<double> ContactForce<dim>::nodal_areas() const
+{
+  // A point counts once however many surfaces it is near.
+  std::set<std::pair<unsigned int, std::array<double, dim - 1>>> known;
+  std::vector<double> areas(map->surface().n_nodes(), 0.);
+  for (const contact::ContactSample<dim> &sample : potential.samples())
+  {
+    std::array<double, dim - 1> xi;
+    std::copy(sample.xi.begin(), sample.xi.end(), xi.begin());
+    if (!known.emplace(sample.facet, xi).second)
+      continue;
+    const Facet<dim> &facet = map->surface().facets[sample.facet];
+    const auto shape = contact::evaluate_facet_shape(facet, sample.xi);
+    for (unsigned int i = 0; i < facet.n_nodes(); ++i)
+      areas[facet.nodes[i]] += shape.value[i] * sample.full_area;
+  }
+  MPI_Allreduce(MPI_IN_PLACE, areas.data(), static_cast<int>(areas.size()), MPI_DOUBLE, MPI_SUM,
+                this->communicator);
+  return areas;
+}
+
+template <int dim>
+std::vector<double> ContactForce<dim>::nodal_pressures() const
+{
+  const ContactSurface<dim> &surface = map->surface();
+  std::vector<SpatialVector<dim>> forces = nodal_forces();
+  std::vector<double> areas = nodal_areas();
+  const auto middles = find_triangle_middles(surface);
+  for (const auto &[middle, ends] : middles)
+    for (const unsigned int end : ends)
+    {
+      forces[end] += 0.5 * forces[middle];
+      areas[end] += 0.5 * areas[middle];
+    }
+  const double largest_area = areas.empty() ? 0. : *std::max_element(areas.begin(), areas.end());
+  std::vector<double> pressures;
+  for (unsigned int node = 0; node < surface.n_nodes(); ++node)
+    pressures.push_back(areas[node] > 1e-9 * largest_area ? forces[node].norm() / areas[node] : 0.);
+  for (const auto &[middle, ends] : middles)
+    pressures[middle] = 0.5 * (pressures[ends[0]] + pressures[ends[1]]);
+  return pressures;
 }
 
 template <int dim>

@@ -36,6 +36,11 @@ public:
   contact::ContactMeasures<dim> measure() const override;
   contact::PairForces<dim> pair_forces(const State &state) const override;
 
+  /// Pressure by node of the whole surface, the same on all ranks: force without damping over the area that
+  /// faces another surface; of quadratic triangles, whose corners have no area, both are those of the linear
+  /// functions of the corners [Pa] (collective).
+  std::vector<double> nodal_pressures() const;
+
   /// This rank's facets in a contact that they are too large to see at that state, see
   /// contact::find_unseen_contact() (collective).
   std::vector<unsigned int> unseen_contact(const State &state) const;
@@ -65,6 +70,12 @@ public:
   std::vector<contact::ContactSample<dim>> samples() const;
 
 private:
+  /// Force by node, without damping, the same on all ranks [N] (collective).
+  std::vector<SpatialVector<dim>> nodal_forces() const;
+  /// Area by node, ∫N dA over the sampled parts of the faces that face another surface, the same on all ranks
+  /// [m²; m in 2-D] (collective).
+  std::vector<double> nodal_areas() const;
+
   const SurfaceMap<dim> *map;
   contact::ContactPotential<dim> potential;
 };
