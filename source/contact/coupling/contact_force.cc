@@ -194,7 +194,8 @@ std::vector<double> ContactForce<dim>::nodal_pressures() const
   for (unsigned int node = 0; node < surface.n_nodes(); ++node)
     pressures.push_back(areas[node] > 1e-9 * largest_area ? forces[node].norm() / areas[node] : 0.);
   for (const auto &[middle, ends] : middles)
-    pressures[middle] = 0.5 * (pressures[ends[0]] + pressures[ends[1]]);
+    if (areas[middle] > 1e-9 * largest_area)
+      pressures[middle] = 0.5 * (pressures[ends[0]] + pressures[ends[1]]);
   return pressures;
 }
 
