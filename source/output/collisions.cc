@@ -2,20 +2,47 @@
 #include "signorini/output/collisions.h"
 
 #include <algorithm>
+#include <array>
 #include <map>
 
 namespace signorini
 {
 namespace
 {
-/// Relative velocities before and after, multiplied: positive for bodies that go on as they did.
-double compare_velocities(const HistoryRow &before, const HistoryRow &after, const Collision &collision)
+using Velocity = std::array<double, 3>;
+
+Velocity relative_velocity(const HistoryRow &row, const Collision &collision)
 {
-  double product = 0.;
+  Velocity velocity;
   for (unsigned int d = 0; d < 3; ++d)
-    product += (before.bodies[collision.one].velocity[d] - before.bodies[collision.other].velocity[d]) *
-               (after.bodies[collision.one].velocity[d] - after.bodies[collision.other].velocity[d]);
-  return product;
+    velocity[d] = row.bodies[collision.one].velocity[d] - row.bodies[collision.other].velocity[d];
+  return velocity;
+}
+
+/// Whether the impulse between them has not turned around the motion along it.
+bool goes_on(const HistoryRow &before, const HistoryRow &after, const Collision &collision)
+{
+  const Velocity v = relative_velocity(before, collision), w = relative_velocity(after, collision);
+  double along_before = 0., along_after = 0.;
+  for (unsigned int d = 0; d < 3; ++d)
+  {
+    along_before += v[d] * (w[d] - v[d]);
+    along_after += w[d] * (w[d] - v[d]);
+  }
+  return !(along_before < 0. && along_after > 0.);
+}
+
+/// Whether what follows the row `i` within the time that the contact has lasted, or two rows, is a part of
+/// it.
+bool touches_again(const std::vector<HistoryRow> &history, std::size_t i, std::size_t first,
+                   const std::pair<unsigned int, unsigned int> &pair)
+{
+  const double until = 2. * history[i - 1].time - history[first].time;
+  for (std::size_t next = i + 1; next < history.size() && (next <= i + 1 || history[next].time <= until);
+       ++next)
+    if (std::binary_search(history[next].touching.begin(), history[next].touching.end(), pair))
+      return true;
+  return false;
 }
 } // namespace
 
@@ -28,7 +55,8 @@ std::vector<Collision> find_collisions(const std::vector<HistoryRow> &history)
     const auto &touching = history[i].touching;
     for (auto pair = first_rows.begin(); pair != first_rows.end();)
     {
-      const bool is_over = !std::binary_search(touching.begin(), touching.end(), pair->first);
+      const bool is_over = !std::binary_search(touching.begin(), touching.end(), pair->first) &&
+                           !touches_again(history, i, pair->second, pair->first);
       if (!is_over && i + 1 < history.size())
       {
         ++pair;
@@ -37,8 +65,7 @@ std::vector<Collision> find_collisions(const std::vector<HistoryRow> &history)
       const std::size_t first = pair->second, last = is_over ? i - 1 : i;
       Collision collision{
           pair->first.first, pair->first.second, history[first].time, history[last].time, is_over, false};
-      collision.is_through =
-          is_over && first > 0 && compare_velocities(history[first - 1], history[i], collision) > 0.;
+      collision.is_through = is_over && first > 0 && goes_on(history[first - 1], history[i], collision);
       collisions.push_back(collision);
       pair = first_rows.erase(pair);
     }

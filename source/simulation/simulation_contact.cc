@@ -242,9 +242,10 @@ template <int dim>
 std::optional<Complaint>
 Simulation<dim>::find_deep_penetration(const contact::ContactMeasures<dim> &deepest) const
 {
-  // Deeper than 1/(dim + 1) of an element the volume potential pushes forward instead of back.
+  // The volume potential sees no depth beyond the inscribed ball of a simplex, an eighth of an element at
+  // least.
   const double limit = !parameters.contact ? 0.
-                       : volume_map        ? parameters.contact->max_penetration * 2. / (dim + 1.)
+                       : volume_map        ? parameters.contact->max_penetration * 0.25
                                            : parameters.contact->max_penetration;
   if (deepest.max_penetration_over_thickness <= limit)
     return {};
