@@ -156,7 +156,9 @@ double measure_face(const std::array<SpatialVector<dim>, dim + 1> &x, unsigned i
 
 /// Sets H and h of all simplices from the undeformed positions. H is the mean height above the outer faces,
 /// those that belong to no other simplex, and dim·V over the mean area of all faces where there is none. h is
-/// H, or 2H in a simplex that reaches from an outer face to the centre of a split cell.
+/// H, or 2H in a simplex that reaches from an outer face to the centre of a split cell. Simplices that touch
+/// the surface with an edge or a corner lie in the layer of those around: their h is the mean of the h there,
+/// by area.
 template <int dim>
 void compute_heights(ContactVolume<dim> &volume)
 {
@@ -175,26 +177,51 @@ void compute_heights(ContactVolume<dim> &volume)
       ++n_simplices[face_of(simplex, i)];
 
   const auto positions = volume.vertex_positions(volume.reference_positions);
+  // of the outer faces at every vertex
+  std::vector<double> areas(positions.size(), 0.), layer_volumes(positions.size(), 0.);
+  std::vector<Simplex<dim> *> without_outer_face;
   for (Simplex<dim> &simplex : volume.simplices)
   {
     std::array<SpatialVector<dim>, dim + 1> x;
     for (unsigned int i = 0; i <= dim; ++i)
       x[i] = positions[simplex.vertices[i]];
     double area = 0., inverse_areas = 0.;
-    unsigned int n_outer = 0;
+    std::vector<unsigned int> outer_faces;
     for (unsigned int i = 0; i <= dim; ++i)
     {
       area += measure_face<dim>(x, i) / (dim + 1);
       if (n_simplices[face_of(simplex, i)] == 1)
       {
         inverse_areas += 1. / measure_face<dim>(x, i);
-        ++n_outer;
+        outer_faces.push_back(i);
       }
     }
-    simplex.height = dim * measure_simplex<dim>(x) * (n_outer > 0 ? inverse_areas / n_outer : 1. / area);
+    simplex.height =
+        dim * measure_simplex<dim>(x) *
+        (outer_faces.empty() ? 1. / area : inverse_areas / static_cast<double>(outer_faces.size()));
     const bool is_part_of_cell = std::any_of(simplex.vertices.begin(), simplex.vertices.end(),
                                              [&](unsigned int v) { return v >= volume.n_nodes(); });
     simplex.layer_thickness = (is_part_of_cell ? 2. : 1.) * simplex.height;
+    for (const unsigned int i : outer_faces)
+      for (const unsigned int vertex : face_of(simplex, i))
+      {
+        areas[vertex] += measure_face<dim>(x, i);
+        layer_volumes[vertex] += measure_face<dim>(x, i) * simplex.layer_thickness;
+      }
+    if (outer_faces.empty())
+      without_outer_face.push_back(&simplex);
+  }
+
+  for (Simplex<dim> *simplex : without_outer_face)
+  {
+    double area = 0., layer_volume = 0.;
+    for (const unsigned int vertex : simplex->vertices)
+    {
+      area += areas[vertex];
+      layer_volume += layer_volumes[vertex];
+    }
+    if (area > 0.)
+      simplex->layer_thickness = layer_volume / area;
   }
 }
 } // namespace signorini

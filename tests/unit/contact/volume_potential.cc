@@ -65,7 +65,7 @@ TYPED_TEST(VolumePotentialTest, SlabsPushWithTheStiffnessOfTheSurfacePotential)
       EXPECT_NEAR(measures.area, 1., 1e-9);
       EXPECT_NEAR(measures.max_penetration, overlap, .3 * overlap);
       EXPECT_NEAR(measures.max_penetration_over_thickness, 3. * overlap, overlap);
-      EXPECT_NEAR(measures.max_pressure, exact, .3 * exact);
+      EXPECT_NEAR(measures.max_pressure, exact, 1e-9 * exact);
       EXPECT_NEAR(measures.deepest_position[dim - 1], 1. - .5 * overlap, .51 * overlap);
       EXPECT_EQ(potential.pair_forces().bodies.at({0, 1}), measures.resultants[0]);
       EXPECT_LT((measures.resultants[0] + measures.resultants[1]).norm(), 1e-12 * force);
@@ -103,18 +103,23 @@ TYPED_TEST(VolumePotentialTest, HeightsOfBoxes)
       for (unsigned int a = 0; a <= dim; ++a)
         x[a] = positions[simplex.vertices[a]];
       volumes[simplex.body] += measure_simplex<dim>(x);
+      bool touches_surface = false;
       for (unsigned int axis = 0; axis < dim; ++axis)
         for (const double side : {0., 1.})
         {
           unsigned int n_on_side = 0;
           for (unsigned int a = 0; a <= dim; ++a)
             n_on_side += std::abs(x[a][axis] - (axis == dim - 1 ? simplex.body : 0.) - side) < 1e-12;
+          touches_surface = touches_surface || n_on_side > 0;
           if (n_on_side == dim)
           {
-            EXPECT_NEAR(simplex.layer_thickness, simplex.body == 0 ? 1. / 3. : .5, 1e-14);
             EXPECT_NEAR(simplex.height, simplex.layer_thickness * (volume == &cut ? 1. : .5), 1e-14);
           }
         }
+      if (touches_surface)
+      {
+        EXPECT_NEAR(simplex.layer_thickness, simplex.body == 0 ? 1. / 3. : .5, 1e-14);
+      }
     }
     EXPECT_NEAR(volumes[0], 1., 1e-14);
     EXPECT_NEAR(volumes[1], 1., 1e-14);
