@@ -209,11 +209,13 @@ void QuasiStaticSolver<dim>::move_supports(double time, State &state)
 }
 
 template <int dim>
-double QuasiStaticSolver<dim>::renew_points(const State &state)
+void QuasiStaticSolver<dim>::renew_terms(const State &state)
 {
   for (const auto &term : balance.terms())
+  {
+    const auto section = run_time->enter(term->name);
     term->renew(state);
-  return balance.judge(state);
+  }
 }
 
 template <int dim>
@@ -246,8 +248,7 @@ bool QuasiStaticSolver<dim>::find_minimum(State &state, NewtonReport &progress, 
 template <int dim>
 void QuasiStaticSolver<dim>::find_equilibrium(double time, State &state, const Report &report)
 {
-  for (const auto &term : balance.terms())
-    term->renew(state);
+  renew_terms(state);
   balance.judge(state); // the forces to come from: what round-off is relative to
   move_supports(time, state);
   NewtonReport progress;
@@ -257,7 +258,8 @@ void QuasiStaticSolver<dim>::find_equilibrium(double time, State &state, const R
     // Points of integration follow the bodies: what was found with the old ones must be an equilibrium with
     // the new.
     const bool has_stagnated = find_minimum(state, progress, report);
-    disturbance = renew_points(state);
+    renew_terms(state);
+    disturbance = balance.judge(state);
     if (balance.is_within(10. * parameters.tolerance, has_stagnated))
     {
       disturbance = 0.;

@@ -65,7 +65,8 @@ private:
   /// Newton's method with the present points of integration. Returns whether the residual stopped falling
   /// before the tolerance, at round-off. Throws NumericalError.
   bool find_minimum(State &state, NewtonReport &progress, const Report &report);
-  double renew_points(const State &state);
+  /// Lets the points of integration follow the bodies.
+  void renew_terms(const State &state);
   /// Throws NumericalError with what is known of the body farthest from equilibrium.
   [[noreturn]] void give_up(const std::string &why, const std::string &advice) const;
 
