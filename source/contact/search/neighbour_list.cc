@@ -60,7 +60,7 @@ struct NeighbourList<dim>::Boxes
 template <int dim>
 NeighbourList<dim>::NeighbourList(const ContactSurface<dim> &contact_surface, std::vector<double> facet_reach,
                                   double skin_thickness, IsAllowedPair is_allowed_pair)
-    : surface(contact_surface), reach(std::move(facet_reach)), skin(skin_thickness),
+    : surface(contact_surface), reach(std::move(facet_reach)), skin(skin_thickness), record(skin),
       is_allowed(std::move(is_allowed_pair)), facets_of_body(contact_surface.n_bodies)
 {
   if (reach.size() != surface.facets.size())
@@ -75,26 +75,13 @@ NeighbourList<dim>::NeighbourList(const ContactSurface<dim> &contact_surface, st
 }
 
 template <int dim>
-bool NeighbourList<dim>::is_stale(const Positions &positions) const
-{
-  if (n_rebuilds_ == 0)
-    return true;
-  const double largest_square = .25 * skin * skin;
-  for (std::size_t node = 0; node < positions.size(); ++node)
-    if (!((positions[node] - positions_at_rebuild[node]).squaredNorm() <= largest_square))
-      return true;
-  return false;
-}
-
-template <int dim>
 void NeighbourList<dim>::rebuild(const Positions &positions)
 {
   Boxes boxes(surface, positions);
   neighbours_.clear();
   for (unsigned int body = 0; body < surface.n_bodies; ++body)
     add_neighbours_of_body(body, boxes);
-  positions_at_rebuild = positions;
-  ++n_rebuilds_;
+  record.note_search(positions);
 }
 
 template <int dim>

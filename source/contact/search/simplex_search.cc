@@ -60,25 +60,13 @@ struct SimplexSearch<dim>::Configuration
 template <int dim>
 SimplexSearch<dim>::SimplexSearch(const ContactVolume<dim> &contact_volume, double skin_thickness,
                                   IsAllowedPair is_allowed_pair)
-    : volume(contact_volume), skin(skin_thickness), is_allowed(std::move(is_allowed_pair)),
+    : volume(contact_volume), skin(skin_thickness), record(skin), is_allowed(std::move(is_allowed_pair)),
       simplices_of_body(contact_volume.n_bodies)
 {
   if (!(skin > 0.))
     throw std::invalid_argument("The skin of a search must be positive.");
   for (unsigned int i = 0; i < volume.simplices.size(); ++i)
     simplices_of_body.at(volume.simplices[i].body).push_back(i);
-}
-
-template <int dim>
-bool SimplexSearch<dim>::is_stale(const Positions &positions) const
-{
-  if (n_rebuilds_ == 0)
-    return true;
-  const double largest_square = .25 * skin * skin;
-  for (std::size_t node = 0; node < positions.size(); ++node)
-    if (!((positions[node] - positions_at_rebuild[node]).squaredNorm() <= largest_square))
-      return true;
-  return false;
 }
 
 template <int dim>
@@ -105,8 +93,7 @@ void SimplexSearch<dim>::rebuild(const Positions &positions)
       if (other > body && is_allowed(body, other))
         add_pairs(body, other, configuration);
   }
-  positions_at_rebuild = positions;
-  ++n_rebuilds_;
+  record.note_search(positions);
 }
 
 template <int dim>

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "signorini/contact/search/facet_box.h"
+#include "signorini/contact/search/search_record.h"
 
 #include <functional>
 #include <vector>
@@ -32,7 +33,7 @@ public:
                 double skin_thickness, IsAllowedPair is_allowed_pair);
 
   /// True before the first build, and as soon as any node moved more than skin/2 since.
-  bool is_stale(const Positions &positions) const;
+  bool is_stale(const Positions &positions) const { return record.is_stale(positions); }
 
   /// Finds, for every owned facet, all facets of other bodies whose bounding boxes come within reach + skin
   /// of its own (the skin a little wider for facets of degree 2, whose points may move farther than their
@@ -40,7 +41,7 @@ public:
   void rebuild(const Positions &positions);
 
   const std::vector<FacetNeighbours> &neighbours() const { return neighbours_; }
-  unsigned int n_rebuilds() const { return n_rebuilds_; }
+  unsigned int n_rebuilds() const { return record.n_searches(); }
 
 private:
   struct Boxes;
@@ -54,12 +55,11 @@ private:
   const ContactSurface<dim> &surface;
   std::vector<double> reach;
   double skin;
+  SearchRecord<dim> record;
   double largest_motion_factor = 1.;
   IsAllowedPair is_allowed;
   std::vector<std::vector<unsigned int>> facets_of_body;
 
-  Positions positions_at_rebuild;
   std::vector<FacetNeighbours> neighbours_;
-  unsigned int n_rebuilds_ = 0;
 };
 } // namespace signorini::contact

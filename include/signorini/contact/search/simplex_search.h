@@ -2,6 +2,7 @@
 #pragma once
 
 #include "signorini/contact/search/facet_box.h"
+#include "signorini/contact/search/search_record.h"
 #include "signorini/discretization/contact_volume.h"
 
 #include <functional>
@@ -28,14 +29,14 @@ public:
                 IsAllowedPair is_allowed_pair);
 
   /// True before the first build, and as soon as any node moved more than skin/2 since.
-  bool is_stale(const Positions &positions) const;
+  bool is_stale(const Positions &positions) const { return record.is_stale(positions); }
 
   /// Finds all pairs of simplices less than the skin apart, and some more: those that neither their boxes nor
   /// one of their faces separate.
   void rebuild(const Positions &positions);
 
   const Pairs &pairs() const { return pairs_; }
-  unsigned int n_rebuilds() const { return n_rebuilds_; }
+  unsigned int n_rebuilds() const { return record.n_searches(); }
 
 private:
   struct Configuration;
@@ -44,11 +45,10 @@ private:
 
   const ContactVolume<dim> &volume;
   double skin;
+  SearchRecord<dim> record;
   IsAllowedPair is_allowed;
   std::vector<std::vector<unsigned int>> simplices_of_body;
 
-  Positions positions_at_rebuild;
   Pairs pairs_;
-  unsigned int n_rebuilds_ = 0;
 };
 } // namespace signorini::contact
