@@ -114,6 +114,7 @@ TEST(Collisions, TouchingFromTheStart)
 TEST(Collisions, StillInContactAtTheEnd)
 {
   expect_one({{2, -1, 0}, {1, -1, 1}, {.5, 1, 1}}, 1., 2., Outcome::touching);
+  expect_one({{2, -1, 0}, {1, -1, 1}, {1, 1, 0}, {1.1, 1, 1}}, 1., 3., Outcome::touching);
 }
 
 TEST(Collisions, NotPartedWhereTheEndCutsAChatter)
