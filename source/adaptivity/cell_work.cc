@@ -8,7 +8,8 @@ std::vector<unsigned int> find_cell_work(const Discretization<dim> &discretizati
                                          const std::vector<BoundaryFace<dim>> &faces,
                                          const SceneForces<dim> &forces)
 {
-  constexpr unsigned int work_of_cell = 1000, work_of_body_pair = 700, work_of_obstacle_pair = 75;
+  constexpr unsigned int work_of_cell = 1000, work_of_body_pair = 700, work_of_obstacle_pair = 75,
+                         work_of_simplex_pair = 3500;
   std::vector<unsigned int> work(discretization.cells.n_cells, work_of_cell);
   for (const auto &contact : forces.surface_contacts)
   {
@@ -17,6 +18,9 @@ std::vector<unsigned int> find_cell_work(const Discretization<dim> &discretizati
     for (const BoundaryFace<dim> &face : faces)
       work[face.cell] += work_of_pair * n_pairs[face.facet];
   }
+  for (const auto &contact : forces.volume_contacts)
+    for (const unsigned int cell : contact->cells_of_pairs())
+      work[cell] += work_of_simplex_pair;
   return work;
 }
 

@@ -71,28 +71,22 @@ bool mark_cells_in_motion(const std::vector<bool> &is_near_contact, OtherCells o
                           const ErrorEstimate &estimate, const AdaptivityParameters &parameters,
                           const FileLevels<dim> &file_levels, Discretization<dim> &discretization)
 {
-  // By class of the error: large ones first.
-  unsigned int end_of_large = 0, begin_of_small = others == OtherCells::coarser ? 0 : ErrorClasses::n_classes;
-  const ErrorClasses errors(estimate, discretization.communicator());
-  if (others == OtherCells::by_error)
-  {
-    end_of_large = errors.end_of_largest(parameters.refine_share);
-    begin_of_small = std::max(end_of_large, errors.begin_of_smallest(parameters.coarsen_share));
-  }
+  const ErrorClasses errors(estimate, parameters, discretization.communicator());
   const bool may_refine = discretization.n_dofs() < parameters.max_n_dofs;
   const std::vector<unsigned int> extra_levels = find_extra_levels(discretization, file_levels);
   unsigned int own_cell = 0;
   for (const auto &cell : discretization.hexahedra->mesh.active_cell_iterators())
     if (cell->is_locally_owned())
     {
-      const unsigned int error_class =
-          others == OtherCells::by_error ? errors.class_of(estimate.cell_discretization[own_cell]) : 0;
-      if (is_near_contact[own_cell] || error_class < end_of_large)
+      const bool is_by_error = others == OtherCells::by_error;
+      const double squared = is_by_error ? estimate.cell_discretization[own_cell] : 0.;
+      if (is_near_contact[own_cell] || (is_by_error && errors.is_large(squared)))
       {
         if (may_refine && extra_levels[own_cell] < parameters.max_levels)
           cell->set_refine_flag();
       }
-      else if (extra_levels[own_cell] > 0 && error_class >= begin_of_small)
+      else if (extra_levels[own_cell] > 0 &&
+               (is_by_error ? errors.is_small(squared) : others == OtherCells::coarser))
         cell->set_coarsen_flag();
       ++own_cell;
     }

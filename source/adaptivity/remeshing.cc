@@ -28,16 +28,13 @@ std::vector<double> find_factors(const ErrorEstimate &estimate, const Adaptivity
                                  const Discretization<dim> &discretization)
 {
   std::vector<double> factors(discretization.cells.n_cells, 1.);
-  const ErrorClasses errors(estimate, discretization.communicator());
-  const unsigned int end_of_large = errors.end_of_largest(adaptivity.refine_share),
-                     begin_of_small =
-                         std::max(end_of_large, errors.begin_of_smallest(adaptivity.coarsen_share));
+  const ErrorClasses errors(estimate, adaptivity, discretization.communicator());
   for (unsigned int cell = 0; cell < factors.size(); ++cell)
   {
-    const unsigned int error_class = errors.class_of(estimate.cell_discretization[cell]);
-    if (estimate.is_any_contact_unseen ? estimate.is_contact_unseen[cell] : error_class < end_of_large)
+    const double squared = estimate.cell_discretization[cell];
+    if (estimate.is_any_contact_unseen ? estimate.is_contact_unseen[cell] : errors.is_large(squared))
       factors[cell] = 0.5;
-    else if (!estimate.is_any_contact_unseen && error_class >= begin_of_small)
+    else if (!estimate.is_any_contact_unseen && errors.is_small(squared))
       factors[cell] = 2.;
   }
   return factors;
@@ -95,13 +92,15 @@ make_adapted_meshes(const ErrorEstimate &estimate, const AdaptivityParameters &a
   const auto size_of_body = [&](unsigned int body)
   {
     const Placement<dim> placement(bodies[body].placement);
-    return [&field, placement, body, scale = bodies[body].placement.scale, smallest = smallest,
+    return [&field, placement, body, scale = bodies[body].placement.scale,
+            coarsest = coarsest_size(bodies[body].mesh, dim), smallest = smallest,
             largest = largest](const Triple &own)
     {
       dealii::Point<dim> point;
       for (unsigned int d = 0; d < dim; ++d)
         point[d] = own[d];
-      return std::clamp(field.evaluate(body, placement.place(point))[0][0], smallest, largest) / scale;
+      const double wanted = std::clamp(field.evaluate(body, placement.place(point))[0][0], smallest, largest);
+      return std::min(wanted / scale, coarsest);
     };
   };
   return place_simplex_meshes<dim>(bodies, discretization.degree, size_of_body);

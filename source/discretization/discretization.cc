@@ -80,7 +80,8 @@ bool Discretization<dim>::balance(const std::vector<unsigned int> &weights,
                                   const std::vector<Vector *> &values)
 {
   constexpr double tolerated_imbalance = 1.1;
-  if (!hexahedra || imbalance(weights) <= tolerated_imbalance)
+  const unsigned int n_hexahedra = tetrahedra ? tetrahedra->first_cell : cells.n_cells;
+  if (!hexahedra || imbalance({weights.begin(), weights.begin() + n_hexahedra}) <= tolerated_imbalance)
     return false;
   auto &mesh = hexahedra->mesh;
   std::vector<unsigned int> weight_of_cell(mesh.n_active_cells(), 0);

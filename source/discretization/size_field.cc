@@ -44,4 +44,12 @@ SizeField make_size_field(const MeshParameters &mesh, const unsigned int dimensi
   return [coarse, fine, near, to_fine = make_distance(mesh, dimension)](const Triple &x)
   { return std::min(coarse, fine * std::max(1., to_fine(x) / near)); };
 }
+
+double coarsest_size(const MeshParameters &mesh, const unsigned int dimension)
+{
+  double longest = mesh.element_size;
+  for (unsigned int d = 0; d < dimension && mesh.element_size == 0.; ++d)
+    longest = std::max(longest, (mesh.upper_corner[d] - mesh.lower_corner[d]) / mesh.cells[d]);
+  return longest;
+}
 } // namespace signorini

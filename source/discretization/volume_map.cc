@@ -36,15 +36,18 @@ template <int dim>
 struct CornerCell
 {
   Simplex<dim> properties;
+  unsigned int number = 0; ///< among its rank's cells
   std::vector<unsigned int> corners;
 };
 
-/// Adds the simplices of all cells; their nodes are there already.
+/// Adds the simplices of all cells, whose nodes are there already; returns the number of the cell of each.
 template <int dim>
-void add_simplices(const std::vector<CornerCell<dim>> &cells, ContactVolume<dim> &volume)
+std::vector<unsigned int> add_simplices(const std::vector<CornerCell<dim>> &cells, ContactVolume<dim> &volume)
 {
   CellSplitter<dim> splitter(volume);
+  std::vector<unsigned int> numbers;
   for (const CornerCell<dim> &cell : cells)
+  {
     if (cell.corners.size() == dim + 1)
     {
       Simplex<dim> simplex = cell.properties;
@@ -57,6 +60,9 @@ void add_simplices(const std::vector<CornerCell<dim>> &cells, ContactVolume<dim>
       std::copy(cell.corners.begin(), cell.corners.end(), corners.begin());
       splitter.add(corners, cell.properties);
     }
+    numbers.resize(volume.simplices.size(), cell.number);
+  }
+  return numbers;
 }
 } // namespace
 
@@ -71,9 +77,12 @@ VolumeMap<dim>::VolumeMap(const Scene<dim> &scene, const Discretization<dim> &th
   std::vector<typename NodeMap<dim>::NodeDofs> all_node_dofs;
   std::vector<CornerCell<dim>> cells;
   for (unsigned int rank = 0; rank < packed.size(); ++rank)
+  {
+    unsigned int n_cells_of_rank = 0;
     for (auto value = packed[rank].begin(); value != packed[rank].end();)
     {
       CornerCell<dim> cell;
+      cell.number = n_cells_of_rank++;
       cell.properties.owned = (rank == this_rank);
       cell.properties.body = static_cast<unsigned int>(*value++);
       cell.properties.youngs_modulus = scene.materials[cell.properties.body].youngs_modulus;
@@ -98,9 +107,10 @@ VolumeMap<dim>::VolumeMap(const Scene<dim> &scene, const Discretization<dim> &th
       }
       cells.push_back(std::move(cell));
     }
+  }
   contact_volume.n_bodies = scene.n_bodies();
   contact_volume.origin = move_to_middle(contact_volume.reference_positions);
-  add_simplices(cells, contact_volume);
+  cells_of_simplices = add_simplices(cells, contact_volume);
   compute_heights(contact_volume);
   this->set_nodes(std::move(all_node_dofs));
 }

@@ -1,85 +1,152 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "signorini/output/collisions.h"
 
+#include <Eigen/Eigenvalues>
+
 #include <algorithm>
-#include <array>
 #include <map>
 
 namespace signorini
 {
 namespace
 {
-using Velocity = std::array<double, 3>;
-
-Velocity relative_velocity(const HistoryRow &row, const Collision &collision)
+Eigen::Map<const Eigen::Vector3d> to_vector(const Triple &triple)
 {
-  Velocity velocity;
-  for (unsigned int d = 0; d < 3; ++d)
-    velocity[d] = row.bodies[collision.one].velocity[d] - row.bodies[collision.other].velocity[d];
-  return velocity;
+  return Eigen::Map<const Eigen::Vector3d>(triple.data());
 }
 
-/// Whether the impulse between them has not turned around the motion along it.
-bool goes_on(const HistoryRow &before, const HistoryRow &after, const Collision &collision)
+/// What a row has of `one` less that of `other`.
+Eigen::Vector3d difference(const HistoryRow &row, const Collision &collision, Triple BodyRecord::*member)
 {
-  const Velocity v = relative_velocity(before, collision), w = relative_velocity(after, collision);
-  double along_before = 0., along_after = 0.;
-  for (unsigned int d = 0; d < 3; ++d)
+  return to_vector(row.bodies[collision.one].*member) - to_vector(row.bodies[collision.other].*member);
+}
+
+/// How contact pushes one of the two.
+struct Push
+{
+  Eigen::Matrix3d squared_forces = Eigen::Matrix3d::Zero(); ///< Σ F⊗F over the rows
+  double largest_speed = 0.;
+
+  void add(const BodyRecord &body)
   {
-    along_before += v[d] * (w[d] - v[d]);
-    along_after += w[d] * (w[d] - v[d]);
+    const auto force = to_vector(body.contact_force);
+    squared_forces += force * force.transpose();
+    largest_speed = std::max(largest_speed, to_vector(body.velocity).norm());
   }
-  return !(along_before < 0. && along_after > 0.);
-}
 
-/// Whether what follows the row `i` within the time that the contact has lasted, or two rows, is a part of
-/// it.
-bool touches_again(const std::vector<HistoryRow> &history, std::size_t i, std::size_t first,
-                   const std::pair<unsigned int, unsigned int> &pair)
+  /// Of a body that is held nothing.
+  Eigen::Matrix3d weighted() const { return largest_speed * largest_speed * squared_forces; }
+};
+
+/// The touches of a pair that are one collision.
+class Touches
 {
-  const double until = 2. * history[i - 1].time - history[first].time;
-  for (std::size_t next = i + 1; next < history.size() && (next <= i + 1 || history[next].time <= until);
-       ++next)
-    if (std::binary_search(history[next].touching.begin(), history[next].touching.end(), pair))
-      return true;
-  return false;
-}
+public:
+  Touches(const std::pair<unsigned int, unsigned int> &pair, const HistoryRow &first,
+          const HistoryRow *row_before)
+      : collision{pair.first, pair.second, first.time, first.time},
+        before(difference(row_before ? *row_before : first, collision, &BodyRecord::position)),
+        is_from_the_start(row_before == nullptr)
+  {
+  }
+
+  void add_touch(const HistoryRow &row)
+  {
+    one.add(row.bodies[collision.one]);
+    other.add(row.bodies[collision.other]);
+    collision.end = row.time;
+    is_touching = true;
+    has_parted = false;
+  }
+
+  void add_gap(const HistoryRow &row)
+  {
+    if (is_touching)
+    {
+      one.add(row.bodies[collision.one]);
+      other.add(row.bodies[collision.other]);
+      after = difference(row, collision, &BodyRecord::position);
+      line = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(one.weighted() + other.weighted())
+                 .eigenvectors()
+                 .col(2);
+    }
+    is_touching = false;
+    is_parting = difference(row, collision, &BodyRecord::position).dot(line) *
+                     difference(row, collision, &BodyRecord::velocity).dot(line) >
+                 0.;
+    has_parted |= is_parting;
+  }
+
+  /// Whether the next touch will be another collision.
+  bool is_over() const { return has_parted && !is_parting; }
+
+  Collision judge() const
+  {
+    using Outcome = Collision::Outcome;
+    Collision judged = collision;
+    if (has_parted && before.dot(line) * after.dot(line) < 0.)
+      judged.outcome = Outcome::passed_through;
+    else if (has_parted)
+      judged.outcome = is_from_the_start ? Outcome::touching_from_the_start : Outcome::bounced;
+    return judged;
+  }
+
+private:
+  Collision collision;
+  Eigen::Vector3d before, after = Eigen::Vector3d::Zero(); // from the centre of `other` to that of `one`
+  Eigen::Vector3d line = Eigen::Vector3d::Zero();
+  Push one, other;
+  bool is_from_the_start;
+  bool is_touching = true, is_parting = false, has_parted = false;
+};
 } // namespace
 
 std::vector<Collision> find_collisions(const std::vector<HistoryRow> &history)
 {
   std::vector<Collision> collisions;
-  std::map<std::pair<unsigned int, unsigned int>, std::size_t> first_rows; // of the pairs that touch
+  std::map<std::pair<unsigned int, unsigned int>, Touches> open;
   for (std::size_t i = 0; i < history.size(); ++i)
   {
-    const auto &touching = history[i].touching;
-    for (auto pair = first_rows.begin(); pair != first_rows.end();)
+    const HistoryRow &row = history[i];
+    for (const auto &pair : row.touching)
     {
-      const bool is_over = !std::binary_search(touching.begin(), touching.end(), pair->first) &&
-                           !touches_again(history, i, pair->second, pair->first);
-      if (!is_over && i + 1 < history.size())
+      const auto known = open.find(pair);
+      if (known != open.end() && known->second.is_over())
       {
-        ++pair;
-        continue;
+        collisions.push_back(known->second.judge());
+        open.erase(known);
       }
-      const std::size_t first = pair->second, last = is_over ? i - 1 : i;
-      Collision collision{
-          pair->first.first, pair->first.second, history[first].time, history[last].time, is_over, false};
-      collision.is_through = is_over && first > 0 && goes_on(history[first - 1], history[i], collision);
-      collisions.push_back(collision);
-      pair = first_rows.erase(pair);
+      open.try_emplace(pair, pair, row, i > 0 ? &history[i - 1] : nullptr).first->second.add_touch(row);
     }
-    for (const auto &pair : touching)
-      if (i + 1 < history.size())
-        first_rows.emplace(pair, i);
+    for (auto &[pair, touches] : open)
+      if (row.touching.count(pair) == 0)
+        touches.add_gap(row);
   }
+  for (const auto &[pair, touches] : open)
+    collisions.push_back(touches.judge());
+  std::stable_sort(collisions.begin(), collisions.end(),
+                   [](const Collision &a, const Collision &b) { return a.end < b.end; });
   return collisions;
 }
 
-std::string outcome(const Collision &collision)
+std::string name_of(Collision::Outcome outcome)
 {
-  if (!collision.is_over)
+  switch (outcome)
+  {
+  case Collision::Outcome::bounced:
+    return "bounced";
+  case Collision::Outcome::passed_through:
+    return "passed through";
+  case Collision::Outcome::touching_from_the_start:
+    return "touching from the start";
+  default:
     return "touching";
-  return collision.is_through ? "passed through" : "bounced";
+  }
+}
+
+const std::string &name_of_collider(const Parameters &parameters, unsigned int index)
+{
+  const std::size_t n_bodies = parameters.bodies.size();
+  return index < n_bodies ? parameters.bodies[index].name : parameters.obstacles[index - n_bodies].name;
 }
 } // namespace signorini

@@ -148,9 +148,9 @@ typename Fields<dim>::NodalContact Fields<dim>::project_contact(const SceneForce
       areas(surface.n_nodes(), 0.);
   for (const auto &term : forces.surface_contacts)
   {
-    const std::vector<double> of_term = term->nodal_pressures();
+    const std::vector<std::optional<double>> of_term = term->nodal_pressures();
     for (unsigned int node = 0; node < surface.n_nodes(); ++node)
-      pressures[node] += of_term[node];
+      pressures[node] += of_term[node].value_or(0.);
     for (const contact::ContactSample<dim> &sample : term->samples())
     {
       const Facet<dim> &facet = surface.facets[sample.facet];

@@ -60,11 +60,11 @@ Json describe_collisions(const Results<dim> &results)
 {
   Json collisions = Json::array();
   for (const Collision &collision : find_collisions(results.history))
-    collisions.push_back({{"one", results.parameters->bodies[collision.one].name},
-                          {"other", results.parameters->bodies[collision.other].name},
+    collisions.push_back({{"one", name_of_collider(*results.parameters, collision.one)},
+                          {"other", name_of_collider(*results.parameters, collision.other)},
                           {"begin", collision.begin},
                           {"end", collision.end},
-                          {"outcome", outcome(collision)}});
+                          {"outcome", name_of(collision.outcome)}});
   return collisions;
 }
 

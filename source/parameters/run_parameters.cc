@@ -102,11 +102,12 @@ const AdaptivityEntries &common_adaptivity_entries()
   static const AdaptivityEntries entries{
       {"Refine share", number_from_up_to(0., 1.), "0.5", "",
        "The cells with the largest errors are refined, so many that they hold this share of the squared "
-       "error. Explicit: 0 refines for contact only.",
+       "error of the whole scene. Explicit: 0 refines for contact only.",
        &Run::refine_share},
       {"Coarsen share", number_from(0.), "0.01", "",
-       "The cells with the smallest errors, so many that they hold this share, are made coarser again; in "
-       "explicit runs never than the mesh of the file, and not while they are near contact.",
+       "The cells with the smallest errors, so many that they hold this share, are made coarser again: "
+       "quasi-static up to 'Element size' or the cells of 'Cells', before refinements; explicit up to the "
+       "mesh of the file, and not while they are near contact.",
        &Run::coarsen_share},
       {"Maximum dofs", integer_from(1, 1000000000), "10000000", "",
        "Refining ends when the mesh has so many degrees of freedom.", &Run::max_n_dofs}};

@@ -76,8 +76,8 @@ void Simulation<dim>::build_contact()
     volume_settings.penalty_factor = results.penalty_factor;
     volume_settings.excluded_body_pairs = settings.excluded_body_pairs;
     volume_map = std::make_unique<VolumeMap<dim>>(scene, *discretization);
-    forces.contacts.push_back(std::make_shared<VolumeContactForce<dim>>("contact of bodies", *volume_map,
-                                                                        volume_settings, communicator));
+    forces.volume_contacts.push_back(std::make_shared<VolumeContactForce<dim>>(
+        "contact of bodies", *volume_map, volume_settings, communicator));
   }
   else if (scene.n_bodies() > 1)
     forces.surface_contacts.push_back(std::make_shared<ContactForce<dim>>(
@@ -92,6 +92,7 @@ void Simulation<dim>::build_contact()
     forces.surface_contacts.push_back(std::make_shared<ContactForce<dim>>(
         "contact with obstacles", true, *surface_map, scene.obstacles, obstacles_only, communicator));
   }
+  forces.contacts.assign(forces.volume_contacts.begin(), forces.volume_contacts.end());
   forces.contacts.insert(forces.contacts.end(), forces.surface_contacts.begin(),
                          forces.surface_contacts.end());
   if (settings.damping_ratio)

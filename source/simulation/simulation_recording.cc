@@ -20,17 +20,17 @@ constexpr const char *force_unit(int dim)
 }
 
 template <int dim>
-void add_to(std::array<double, 3> &sum, const SpatialVector<dim> &vector, double factor)
+void add_to(Triple &sum, const SpatialVector<dim> &vector, double factor)
 {
   for (unsigned int d = 0; d < dim; ++d)
     sum[d] += factor * vector[d];
 }
 
 template <int dim>
-std::array<double, 3> force_of_pair(const typename contact::PairForces<dim>::Table &table, unsigned int one,
-                                    unsigned int other)
+Triple force_of_pair(const typename contact::PairForces<dim>::Table &table, unsigned int one,
+                     unsigned int other)
 {
-  std::array<double, 3> force{};
+  Triple force{};
   const auto found = table.find({one, other});
   if (found != table.end())
     add_to<dim>(force, found->second, 1.);
@@ -66,26 +66,35 @@ void Simulation<dim>::record_bodies(const contact::PairForces<dim> &pair_forces)
     add_to<dim>(records[pair.first].contact_force, force, 1.);
 
   const bool is_moving = state.velocity.size() > 0;
-  std::vector<double> sums(2 * dim * scene.n_bodies(), 0.);
+  std::vector<double> sums(3 * dim * scene.n_bodies(), 0.);
   for (const OwnedNode<dim> &node : discretization->owned_nodes)
     for (unsigned int d = 0; d < dim; ++d)
     {
-      double *sum = &sums[2 * (dim * node.body + d)];
+      double *sum = &sums[3 * (dim * node.body + d)];
       const double volume = nodal_volume.local_element(node.dofs[d]);
-      sum[0] += volume * state.displacement.local_element(node.dofs[d]);
-      sum[1] += is_moving ? volume * state.velocity.local_element(node.dofs[d]) : 0.;
+      sum[0] += volume * node.position[d];
+      sum[1] += volume * state.displacement.local_element(node.dofs[d]);
+      sum[2] += is_moving ? volume * state.velocity.local_element(node.dofs[d]) : 0.;
     }
   dealii::Utilities::MPI::sum(sums, communicator, sums);
   for (unsigned int body = 0; body < scene.n_bodies(); ++body)
     for (unsigned int d = 0; d < dim; ++d)
     {
-      records[body].displacement[d] = sums[2 * (dim * body + d)] / results.body_volumes[body];
-      records[body].velocity[d] = sums[2 * (dim * body + d) + 1] / results.body_volumes[body];
+      const double *sum = &sums[3 * (dim * body + d)], volume = results.body_volumes[body];
+      records[body].displacement[d] = sum[1] / volume;
+      records[body].velocity[d] = sum[2] / volume;
+      records[body].position[d] = (sum[0] + sum[1]) / volume;
     }
+  for (const ObstacleParameters &obstacle : parameters.obstacles)
+    records.push_back({obstacle.point, {}, {}, {}});
   results.history.push_back({state.time, records, {}});
+  auto &touching = results.history.back().touching;
   for (const auto &[pair, force] : pair_forces.bodies)
     if (force != SpatialVector<dim>::Zero())
-      results.history.back().touching.push_back(pair);
+      touching.insert(pair);
+  for (const auto &[pair, force] : pair_forces.obstacles)
+    if (force != SpatialVector<dim>::Zero())
+      touching.emplace(pair.first, scene.n_bodies() + pair.second);
 }
 
 template <int dim>
@@ -106,7 +115,7 @@ void Simulation<dim>::record_contact_forces(const contact::PairForces<dim> &pair
     ContactResultant on_all{"all bodies", name, {}};
     for (unsigned int body = 0; body < scene.n_bodies(); ++body)
     {
-      const std::array<double, 3> force = force_of_pair<dim>(pair_forces.obstacles, body, obstacle);
+      const Triple force = force_of_pair<dim>(pair_forces.obstacles, body, obstacle);
       if (is_by_body && !is_pair_excluded(*parameters.contact, scene.body_names[body], name))
         results.resultants.push_back({scene.body_names[body], name, force});
       for (unsigned int d = 0; d < 3; ++d)

@@ -138,9 +138,9 @@ void Simulation<dim>::gather_nodal_pressures()
   {
     for (const double pressure : term->projected_pressures())
       results.max_projected_pressure = std::max(results.max_projected_pressure, pressure);
-    for (const double pressure : term->nodal_pressures())
-      if (pressure > 0.)
-        results.nodal_pressures.push_back(pressure);
+    for (const std::optional<double> &pressure : term->nodal_pressures())
+      if (pressure)
+        results.nodal_pressures.push_back(*pressure);
   }
 }
 
@@ -248,8 +248,9 @@ void Simulation<dim>::print_collisions()
   const std::vector<Collision> collisions = find_collisions(results.history);
   for (std::size_t i = 0; i < std::min(most, collisions.size()); ++i)
     progress.say(fmt::format("Collision of {} and {} from {:.6g} to {:.6g} s: {}",
-                             scene.body_names[collisions[i].one], scene.body_names[collisions[i].other],
-                             collisions[i].begin, collisions[i].end, outcome(collisions[i])));
+                             name_of_collider(parameters, collisions[i].one),
+                             name_of_collider(parameters, collisions[i].other), collisions[i].begin,
+                             collisions[i].end, name_of(collisions[i].outcome)));
   if (collisions.size() > most)
     progress.say(fmt::format("and {} further collisions", collisions.size() - most));
 }

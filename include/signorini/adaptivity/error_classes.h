@@ -2,32 +2,30 @@
 #pragma once
 
 #include "signorini/adaptivity/error_estimate.h"
+#include "signorini/parameters/parameters.h"
 
 #include <mpi.h>
 
-#include <vector>
-
 namespace signorini
 {
-/// Squared errors sorted by size into classes of a tenth of a factor of two each; summed over all ranks.
+/// Which errors of all cells of a scene, whatever their bodies and kinds, are large and which small: the
+/// largest that hold `refine_share` of the squared error (W. Dörfler, 1996) and the smallest that hold at
+/// most `coarsen_share`. Errors alike within 7 % are in one class, so that round-off decides nothing.
 class ErrorClasses
 {
 public:
-  static constexpr unsigned int n_classes = 600;
+  /// Of all ranks together (collective).
+  ErrorClasses(const ErrorEstimate &estimate, const AdaptivityParameters &parameters,
+               const MPI_Comm &communicator);
 
-  ErrorClasses(const ErrorEstimate &estimate, const MPI_Comm &communicator);
-
-  /// 0 holds the largest errors.
-  unsigned int class_of(double squared) const;
-
-  /// Classes below this one hold just at least that share.
-  unsigned int end_of_largest(double share) const;
-
-  /// Classes from this one on hold at most that share.
-  unsigned int begin_of_smallest(double share) const;
+  bool is_large(double squared) const { return class_of(squared) < end_of_large; }
+  bool is_small(double squared) const { return class_of(squared) >= begin_of_small; }
 
 private:
+  /// A tenth of a factor of two each; 0 holds the largest errors.
+  unsigned int class_of(double squared) const;
+
   double total;
-  std::vector<double> sums;
+  unsigned int end_of_large = 0, begin_of_small;
 };
 } // namespace signorini

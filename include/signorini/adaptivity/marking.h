@@ -6,9 +6,9 @@
 
 namespace signorini
 {
-/// Flags cells for refinement and coarsening by their share of the squared discretisation error (W. Dörfler,
-/// 1996): the contact part falls with the penalty factor, not with the cells. While some cells are too large
-/// to see the contact they are in, only these are refined (collective).
+/// Flags hexahedra for refinement and coarsening by the discretisation error of the whole scene, see
+/// ErrorClasses: the contact part falls with the penalty factor, not with the cells. While some cells are too
+/// large to see the contact they are in, only these are refined (collective).
 template <int dim>
 void mark_cells(const ErrorEstimate &estimate, const AdaptivityParameters &parameters,
                 Discretization<dim> &discretization);

@@ -28,9 +28,8 @@ enum class OtherCells
 };
 
 /// Flags cells of a moving scene (collective): those near contact for refinement; none above `max_levels`
-/// beyond the mesh of the file or below that mesh. Cells whose errors are alike within 7 % are flagged
-/// together, so that round-off decides nothing. Returns whether any flag is left after those have been
-/// cleared that the neighbours forbid.
+/// beyond the mesh of the file or below that mesh; errors count as ErrorClasses says. Returns whether any
+/// flag is left after those have been cleared that the neighbours forbid.
 template <int dim>
 bool mark_cells_in_motion(const std::vector<bool> &is_near_contact, OtherCells others,
                           const ErrorEstimate &estimate, const AdaptivityParameters &parameters,

@@ -7,10 +7,10 @@
 
 namespace signorini
 {
-/// New meshes of all bodies of tetrahedra by an error estimate (collective): cells that hold `refine_share`
-/// of the squared error get edges of half their length, those that hold `coarsen_share` of twice it, the
-/// others keep theirs. The size is continuous and grows by no more than the way gone. What comes from a mesh
-/// file, whose shape is not known beyond the mesh, stays as it is.
+/// New meshes of all bodies of tetrahedra by an error estimate (collective): cells with large errors (see
+/// ErrorClasses) get edges of half their length, those with small ones of twice it, but no longer than
+/// coarsest_size(), the others keep theirs. The size is continuous and grows by no more than the way gone.
+/// What comes from a mesh file, whose shape is not known beyond the mesh, stays as it is.
 ///
 /// Where contact goes unseen only the cells there are refined, as mark_cells() does.
 template <int dim>

@@ -50,13 +50,13 @@ public:
   /// object before is void.
   void replace_tetrahedra(const std::vector<PlacedSimplexMesh> &meshes, const std::vector<Vector *> &values);
 
-  /// Largest sum of `weights`, one for each own cell, of any rank over the mean of all ranks (collective).
+  /// Largest sum of `weights`, of own cells, of any rank over the mean of all ranks (collective).
   double imbalance(const std::vector<unsigned int> &weights) const;
 
-  /// Shares the hexahedra out among the ranks anew, so that each has about the same sum of `weights`,
-  /// positive ones of its own cells, and carries `values` over as they are (collective). Does nothing where
-  /// no rank has more than 1.1 of the mean. Returns whether it did; then whatever was made from this object
-  /// before is void.
+  /// Shares the hexahedra out among the ranks anew, so that each has about the same sum of their `weights`,
+  /// positive ones of its own cells, and carries `values` over as they are (collective). Tetrahedra, which
+  /// stay on their ranks, count for nothing. Does nothing where no rank has more than 1.1 of the mean.
+  /// Returns whether it did; then whatever was made from this object before is void.
   bool balance(const std::vector<unsigned int> &weights, const std::vector<Vector *> &values);
 
   /// A zero vector with ghost entries for all that this rank's cells need.

@@ -11,4 +11,8 @@ namespace signorini
 /// so that twice the distance has twice the length. It grows by no more than the way gone. `parameters` is
 /// copied.
 SizeField make_size_field(const MeshParameters &parameters, unsigned int dimension);
+
+/// Length of edges [m] of the mesh that the parameters refine: the element size, or of a cut box the longest
+/// edge of its cells.
+double coarsest_size(const MeshParameters &parameters, unsigned int dimension);
 } // namespace signorini

@@ -18,10 +18,14 @@ public:
 
   const ContactVolume<dim> &volume() const { return contact_volume; }
 
+  /// The cell that a simplex is or is a part of, an own cell of the rank that owns the simplex.
+  unsigned int cell_of(unsigned int simplex) const { return cells_of_simplices[simplex]; }
+
   /// Positions of the volume's nodes, from its origin [m] (collective).
   std::vector<SpatialVector<dim>> positions(const Vector &displacement) const;
 
 private:
   ContactVolume<dim> contact_volume;
+  std::vector<unsigned int> cells_of_simplices;
 };
 } // namespace signorini

@@ -8,19 +8,34 @@
 
 namespace signorini
 {
-/// One contact of two bodies from touch to parting, as the rows of the history show it.
+/// One impact of two bodies, or of a body and an obstacle, as the rows of the history show it.
 struct Collision
 {
-  unsigned int one = 0, other = 0; ///< bodies
+  enum class Outcome
+  {
+    bounced,                 ///< they have parted, their centres on the same sides as before
+    passed_through,          ///< they have parted, their centres have exchanged sides
+    touching,                ///< not parted at the end of the history
+    touching_from_the_start, ///< they have parted like `bounced`, but no row shows them before
+  };
+
+  unsigned int one = 0, other = 0; ///< see HistoryRow::bodies
   double begin = 0., end = 0.;     ///< first and last row with a force between them [s]
-  bool is_over = false;            ///< whether a row without a force follows
-  bool is_through = false;         ///< whether the impulse between them has not turned their motion around
+  Outcome outcome = Outcome::touching;
 };
 
-/// All collisions of a moving scene, in the order of their ends; contacts of a pair that follow each other
-/// within the time that they last are one. What lies between two rows goes unseen.
+/// All collisions of a moving scene, in the order of their ends. All is judged along the line on which
+/// contact pushes those that move most, d maximising Σ v² (F·d)² over the rows and the two, F being all
+/// contact force on one of them and v its largest speed: what a support takes up turns nothing. They have
+/// *parted* in a row without a force in which their centres of mass move away from each other along it;
+/// touches are one collision until they have parted and then come towards each other anew. The sides of the
+/// centres are compared between the row before the first touch and the one after the last. What lies between
+/// two rows goes unseen.
 std::vector<Collision> find_collisions(const std::vector<HistoryRow> &history);
 
-/// "bounced", "passed through" or "touching".
-std::string outcome(const Collision &collision);
+/// As in summaries: "passed through".
+std::string name_of(Collision::Outcome outcome);
+
+/// Name of one that collides.
+const std::string &name_of_collider(const Parameters &parameters, unsigned int index);
 } // namespace signorini

@@ -12,17 +12,19 @@
 #include <array>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
 namespace signorini
 {
-/// One body at one moment.
+/// One body, or an obstacle, at one moment.
 struct BodyRecord
 {
-  std::array<double, 3> displacement{};  ///< of its centre of mass [m]
-  std::array<double, 3> velocity{};      ///< of its centre of mass; zero in quasi-static runs [m/s]
-  std::array<double, 3> contact_force{}; ///< on it, with that of the contact damping [N; N/m in 2-D]
+  Triple position{};      ///< of its centre of mass; of an obstacle its point [m]
+  Triple displacement{};  ///< of its centre of mass [m]
+  Triple velocity{};      ///< of its centre of mass; zero in quasi-static runs [m/s]
+  Triple contact_force{}; ///< on a body, with that of the contact damping [N; N/m in 2-D]
 };
 
 /// Contact force on a body from another one or an obstacle, with that of the contact damping.
@@ -43,8 +45,8 @@ struct SupportForce
 struct HistoryRow
 {
   double time = 0.;
-  std::vector<BodyRecord> bodies;
-  std::vector<std::pair<unsigned int, unsigned int>> touching; ///< bodies with a force between them, sorted
+  std::vector<BodyRecord> bodies;                           ///< and after them the obstacles
+  std::set<std::pair<unsigned int, unsigned int>> touching; ///< those with a force between them
 };
 
 /// A part of the program that the scene did not need.
@@ -92,7 +94,7 @@ struct Results
   std::vector<unsigned int> sample_bodies;
   std::vector<double> sample_thicknesses;
   double max_projected_pressure = 0.;  ///< at the end, see ContactForce::projected_pressures() [Pa]
-  std::vector<double> nodal_pressures; ///< nodal force over undeformed nodal area, where there is one [Pa]
+  std::vector<double> nodal_pressures; ///< at the end, see ContactForce::nodal_pressures() [Pa]
 
   bool has_ledger = false; ///< explicit runs; `energy` of others holds elastic and contact only
   EnergyLedger energy;

@@ -7,7 +7,6 @@
 #include "signorini/adaptivity/motion_marking.h"
 #include "signorini/base/exceptions.h"
 #include "signorini/base/run_time.h"
-#include "signorini/contact/coupling/volume_contact_force.h"
 #include "signorini/discretization/supports.h"
 #include "signorini/discretization/surface_map.h"
 #include "signorini/output/fields.h"

@@ -177,7 +177,7 @@ std::vector<double> ContactForce<dim>::nodal_areas() const
 }
 
 template <int dim>
-std::vector<double> ContactForce<dim>::nodal_pressures() const
+std::vector<std::optional<double>> ContactForce<dim>::nodal_pressures() const
 {
   const ContactSurface<dim> &surface = map->surface();
   std::vector<SpatialVector<dim>> forces = nodal_forces();
@@ -190,12 +190,13 @@ std::vector<double> ContactForce<dim>::nodal_pressures() const
       areas[end] += 0.5 * areas[middle];
     }
   const double largest_area = areas.empty() ? 0. : *std::max_element(areas.begin(), areas.end());
-  std::vector<double> pressures;
+  std::vector<std::optional<double>> pressures(surface.n_nodes());
   for (unsigned int node = 0; node < surface.n_nodes(); ++node)
-    pressures.push_back(areas[node] > 1e-9 * largest_area ? forces[node].norm() / areas[node] : 0.);
+    if (areas[node] > 1e-9 * largest_area)
+      pressures[node] = forces[node].norm() / areas[node];
   for (const auto &[middle, ends] : middles)
-    if (areas[middle] > 1e-9 * largest_area)
-      pressures[middle] = 0.5 * (pressures[ends[0]] + pressures[ends[1]]);
+    if (pressures[middle])
+      pressures[middle] = 0.5 * (*pressures[ends[0]] + *pressures[ends[1]]);
   return pressures;
 }
 

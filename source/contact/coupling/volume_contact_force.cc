@@ -82,6 +82,15 @@ contact::PairForces<dim> VolumeContactForce<dim>::pair_forces(const State &) con
   return this->sum(potential.pair_forces());
 }
 
+template <int dim>
+std::vector<unsigned int> VolumeContactForce<dim>::cells_of_pairs() const
+{
+  std::vector<unsigned int> cells;
+  for (const auto &pair : potential.pairs())
+    cells.push_back(map->cell_of(pair.first));
+  return cells;
+}
+
 template class VolumeContactForce<2>;
 template class VolumeContactForce<3>;
 } // namespace signorini

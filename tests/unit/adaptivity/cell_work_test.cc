@@ -105,4 +105,53 @@ TYPED_TEST(MotionOnRanks, WorkOfContactIsSharedOut)
   pillar.adapt(false);
   EXPECT_EQ(discretization.n_cells(), n_cells) << "children of one cell were parted";
 }
+
+TYPED_TEST(MotionOnRanks, TetrahedraAreNotShared)
+{
+  constexpr int dim = TypeParam::dim;
+  BodyParameters simplices = make_simplex_box("simplices", dim, {1., 1., 1.}, {2, 2, 2});
+  simplices.placement.shift[0] = 2.;
+  BuiltScene<dim> built({make_box("hexahedra", {1., 1., 1.}, {4, 4, 4}), simplices}, TypeParam::degree);
+  Discretization<dim> &discretization = built.discretization;
+  std::vector<unsigned int> work(discretization.cells.n_cells, 1000);
+  const bool is_first = dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;
+  std::fill(work.begin() + discretization.tetrahedra->first_cell, work.end(), is_first ? 1 : 100000);
+  const bool is_parallel = dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD) > 1;
+  EXPECT_EQ(discretization.imbalance(work) > 1.5, is_parallel);
+  EXPECT_FALSE(discretization.balance(work, {&built.state.displacement})) << "the hexahedra are balanced";
+  std::fill(work.begin(), work.begin() + discretization.tetrahedra->first_cell, is_first ? 1000 : 3000);
+  EXPECT_EQ(discretization.balance(work, {&built.state.displacement}), is_parallel);
+}
+
+template <typename T>
+class MotionOfVolumes : public testing::Test
+{
+};
+TYPED_TEST_SUITE(MotionOfVolumes, LinearCases);
+
+TYPED_TEST(MotionOfVolumes, OverlapsOfSimplicesAreWorkOfTheirCells)
+{
+  constexpr int dim = TypeParam::dim;
+  BodyParameters lower = make_box("lower", {1., 1., 1.}, {4, 4, 4});
+  BodyParameters upper = make_simplex_box("upper", dim, {1., 1., 1.}, {3, 3, 3});
+  upper.placement.shift[dim - 1] = .99;
+  BuiltScene<dim> built({lower, upper}, 1);
+  const VolumeMap<dim> map(built.scene, built.discretization);
+  built.forces.volume_contacts.push_back(std::make_shared<VolumeContactForce<dim>>(
+      "contact", map, contact::VolumePotentialSettings(), MPI_COMM_WORLD));
+  built.forces.volume_contacts[0]->renew(built.state);
+  const std::vector<unsigned int> work = find_cell_work(
+      built.discretization, collect_boundary_faces(built.discretization, &built.map), built.forces);
+  double extra_work = 0.;
+  built.discretization.for_each_own_cell(
+      [&](const MeshPart<dim> &, const auto &cell, unsigned int own_cell)
+      {
+        const bool is_in_contact = cell->material_id() == 0 && cell->center()[dim - 1] > .75;
+        EXPECT_EQ(work[own_cell] > 1000, is_in_contact) << cell->center();
+        extra_work += work[own_cell] - 1000;
+      });
+  const unsigned int n_pairs = built.forces.volume_contacts[0]->measure().n_pairs;
+  ASSERT_GT(n_pairs, 0u);
+  EXPECT_EQ(dealii::Utilities::MPI::sum(extra_work, MPI_COMM_WORLD), 3500. * n_pairs);
+}
 } // namespace

@@ -148,6 +148,64 @@ TYPED_TEST(ContactForces, OverlappingBlocksCarryStiffnessTimesDepth)
   EXPECT_NEAR(contact->measure().resultants[1][dim - 1], stiffness * .01, 1e-10);
 }
 
+/// Two blocks of one size, pressed together; the middle of the lower one's upper face is dented.
+template <int dim>
+std::vector<std::optional<double>> press_on_dent(BuiltScene<dim> &built, Integration integration)
+{
+  const auto contact = built.add_contact(make_settings(integration));
+  built.state.displacement = built.interpolate(
+      [](const SpatialVector<dim> &x)
+      {
+        SpatialVector<dim> u = SpatialVector<dim>::Zero();
+        if (x[dim - 1] == 1. && (x.template head<dim - 1>().array() - .5).abs().maxCoeff() < .3)
+          u[dim - 1] = -.02;
+        return u;
+      });
+  contact->renew(built.state);
+  contact->update(built.state);
+  return contact->nodal_pressures();
+}
+
+TYPED_TEST(ContactForces, ANodeInAHoleHasNoPressureAndOneAwayFromContactHasNone)
+{
+  constexpr int dim = TypeParam::dim;
+  for (const Integration integration : {Integration::face_quadrature, Integration::face_segments})
+  {
+    BodyParameters lower = make_box("lower", {1., 1., 1.}, {4, 4, 4}), upper = lower;
+    upper.placement.shift[dim - 1] = 1. - .01;
+    BuiltScene<dim> built({lower, upper}, TypeParam::degree);
+    const std::vector<std::optional<double>> pressures = press_on_dent(built, integration);
+    const ContactSurface<dim> &surface = built.map.surface();
+    unsigned int n_in_hole = 0, n_pressed = 0, n_away = 0;
+    for (unsigned int node = 0; node < surface.n_nodes(); ++node)
+    {
+      const SpatialVector<dim> x = surface.reference_positions[node] + surface.origin;
+      const bool is_lower = node < surface.n_nodes() / 2;
+      const double from_middle = (x.template head<dim - 1>().array() - .5).abs().maxCoeff();
+      if (std::abs(x[dim - 1] - (is_lower ? 1. : .99)) > .2)
+      {
+        EXPECT_FALSE(pressures[node]);
+        ++n_away;
+      }
+      else if (from_middle > .49 && is_lower == (x[dim - 1] > .995))
+      {
+        ASSERT_TRUE(pressures[node]);
+        EXPECT_GT(*pressures[node], 0.);
+        ++n_pressed;
+      }
+      else if (from_middle < .01)
+      {
+        ASSERT_TRUE(pressures[node]);
+        EXPECT_EQ(*pressures[node], 0.);
+        ++n_in_hole;
+      }
+    }
+    EXPECT_EQ(n_in_hole, 2u);
+    EXPECT_GT(n_pressed, 0u);
+    EXPECT_GT(n_away, 0u);
+  }
+}
+
 TYPED_TEST(ContactForces, NothingActsAtADistance)
 {
   constexpr int dim = TypeParam::dim;

@@ -6,6 +6,8 @@
 #include "signorini/discretization/surface_map.h"
 #include "signorini/physics/force_term.h"
 
+#include <optional>
+
 namespace signorini
 {
 /// The surface contact potential as a force on the degrees of freedom.
@@ -36,10 +38,10 @@ public:
   contact::ContactMeasures<dim> measure() const override;
   contact::PairForces<dim> pair_forces(const State &state) const override;
 
-  /// Pressure by node of the whole surface, the same on all ranks: force without damping over the area that
-  /// faces another surface; of quadratic triangles, whose corners have no area, both are those of the linear
-  /// functions of the corners [Pa] (collective).
-  std::vector<double> nodal_pressures() const;
+  /// Pressure by node of the whole surface, the same on all ranks, where there is area that faces another
+  /// surface: force without damping over that area; of quadratic triangles, whose corners have no area, both
+  /// are those of the linear functions of the corners [Pa] (collective).
+  std::vector<std::optional<double>> nodal_pressures() const;
 
   /// This rank's facets in a contact that they are too large to see at that state, see
   /// contact::find_unseen_contact() (collective).

@@ -30,6 +30,9 @@ public:
   contact::ContactMeasures<dim> measure() const override;
   contact::PairForces<dim> pair_forces(const State &state) const override;
 
+  /// The own cell of the first simplex of every pair of this rank, near or overlapping, [pair].
+  std::vector<unsigned int> cells_of_pairs() const;
+
 private:
   const VolumeMap<dim> *map;
   contact::VolumePotential<dim> potential;

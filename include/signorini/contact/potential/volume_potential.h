@@ -70,6 +70,9 @@ public:
   /// Calls `add(nodes)` with the nodes that may couple until pairs are searched again.
   void for_each_coupling(const std::function<void(const std::vector<unsigned int> &nodes)> &add) const;
 
+  /// This rank's pairs, each listed where its first simplex is owned.
+  const typename SimplexSearch<dim>::Pairs &pairs() const { return search.pairs(); }
+
   /// How often pairs were searched: couplings stay the same between two searches.
   unsigned int n_searches() const { return search.n_rebuilds(); }
 
