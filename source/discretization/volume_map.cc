@@ -71,9 +71,13 @@ VolumeMap<dim>::VolumeMap(const Scene<dim> &scene, const Discretization<dim> &th
   std::vector<typename NodeMap<dim>::NodeDofs> all_node_dofs;
   std::vector<CornerCell<dim>> cells;
   for (unsigned int rank = 0; rank < packed.size(); ++rank)
+  {
+    if (rank == this_rank)
+      begin_of_own_cells = static_cast<unsigned int>(cells.size());
     for (auto value = packed[rank].begin(); value != packed[rank].end();)
     {
       CornerCell<dim> cell;
+      cell.properties.cell = static_cast<unsigned int>(cells.size());
       cell.properties.owned = (rank == this_rank);
       cell.properties.body = static_cast<unsigned int>(*value++);
       cell.properties.youngs_modulus = scene.materials[cell.properties.body].youngs_modulus;
@@ -98,6 +102,8 @@ VolumeMap<dim>::VolumeMap(const Scene<dim> &scene, const Discretization<dim> &th
       }
       cells.push_back(std::move(cell));
     }
+  }
+  n_all_cells = static_cast<unsigned int>(cells.size());
   contact_volume.n_bodies = scene.n_bodies();
   contact_volume.origin = move_to_middle(contact_volume.reference_positions);
   add_simplices(cells, contact_volume);

@@ -41,7 +41,7 @@ std::array<double, 3> force_of_pair(const typename contact::PairForces<dim>::Tab
 template <int dim>
 void Simulation<dim>::record_state()
 {
-  record_contact();
+  record_contact(measure_terms());
   contact::PairForces<dim> pair_forces;
   for (const auto &term : forces.contacts)
   {
