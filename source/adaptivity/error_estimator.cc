@@ -6,6 +6,8 @@
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
+#include <functional>
+#include <numeric>
 
 namespace signorini
 {
@@ -14,7 +16,6 @@ ErrorEstimator<dim>::ErrorEstimator(const Discretization<dim> &the_discretizatio
                                     const Scene<dim> &the_scene, const SceneForces<dim> &scene_forces,
                                     const SurfaceMap<dim> *surface_map)
     : discretization(&the_discretization), scene(&the_scene), forces(&scene_forces), map(surface_map),
-      are_tractions_known(scene_forces.contacts.size() == scene_forces.surface_contacts.size()),
       recovery(the_discretization), faces(collect_boundary_faces(the_discretization, surface_map))
 {
 }
@@ -106,42 +107,69 @@ void ErrorEstimator<dim>::find_unseen_contact(const State &state, ErrorEstimate 
 }
 
 template <int dim>
+std::vector<bool> ErrorEstimator<dim>::find_unknown_tractions() const
+{
+  std::vector<bool> is_unknown(faces.size(), false);
+  const auto &partitioner = *discretization->node_positions.get_partitioner();
+  for (const auto &contact : forces->volume_contacts)
+  {
+    const auto in_contact = contact->faces_in_contact();
+    for (unsigned int f = 0; f < faces.size(); ++f)
+    {
+      std::vector<dealii::types::global_dof_index> dofs;
+      for (const unsigned int node : faces[f].nodes)
+        dofs.push_back(
+            partitioner.local_to_global(discretization->cells.cell_dofs(faces[f].cell)[node * dim]));
+      std::sort(dofs.begin(), dofs.end());
+      is_unknown[f] = in_contact.count(dofs) > 0;
+    }
+  }
+  return is_unknown;
+}
+
+template <int dim>
+void ErrorEstimator<dim>::add_contact_errors(ErrorEstimate &result) const
+{
+  result.cell_contact.assign(discretization->cells.n_cells, 0.);
+  for (const auto &contact : forces->surface_contacts)
+  {
+    const std::vector<double> errors = contact->facet_errors();
+    for (const BoundaryFace<dim> &face : faces)
+      result.cell_contact[face.cell] += errors[face.facet];
+  }
+  for (const auto &contact : forces->volume_contacts)
+  {
+    const std::vector<double> errors = contact->cell_errors();
+    std::transform(errors.begin(), errors.end(), result.cell_contact.begin(), result.cell_contact.begin(),
+                   std::plus<>());
+  }
+  const double sum = std::accumulate(result.cell_contact.begin(), result.cell_contact.end(), 0.);
+  result.contact = dealii::Utilities::MPI::sum(sum, discretization->communicator());
+}
+
+template <int dim>
 ErrorEstimate ErrorEstimator<dim>::estimate(const State &state)
 {
   const unsigned int n_cells = discretization->cells.n_cells;
   const std::vector<Eigen::Matrix3d> point_stresses = forces->elasticity->point_stresses();
   const NodalPressures<dim> pressures = contact_pressures();
   recovery.recover(point_stresses);
+  const std::vector<bool> is_traction_unknown = find_unknown_tractions();
   ErrorEstimate result;
-  result.cell_contact.assign(n_cells, 0.);
-  auto face = faces.begin();
+  unsigned int f = 0;
   for (unsigned int cell = 0; cell < n_cells; ++cell)
   {
     std::vector<Eigen::Matrix3d> nodal = recovery.nodal_stresses(cell);
-    for (; face != faces.end() && face->cell == cell; ++face)
-      if (are_tractions_known)
-        balance_tractions(*face, state.time, pressures, nodal);
+    for (; f < faces.size() && faces[f].cell == cell; ++f)
+      if (!is_traction_unknown[f])
+        balance_tractions(faces[f], state.time, pressures, nodal);
     result.cell_discretization.push_back(
         squared_error(cell, nodal, &point_stresses[discretization->cells.first_point(cell)]));
     result.discretization += result.cell_discretization.back();
   }
-  for (const auto &contact : forces->surface_contacts)
-  {
-    const std::vector<double> errors = contact->facet_errors();
-    for (const BoundaryFace<dim> &of_face : faces)
-      result.cell_contact[of_face.cell] += errors[of_face.facet];
-  }
-  for (const double squared : result.cell_contact)
-    result.contact += squared;
-  find_unseen_contact(state, result);
   result.discretization = dealii::Utilities::MPI::sum(result.discretization, discretization->communicator());
-  result.contact = dealii::Utilities::MPI::sum(result.contact, discretization->communicator());
-  if (!are_tractions_known)
-    for (const auto &contact : forces->contacts)
-      result.contact += 2. * contact->energy();
-  if (!are_tractions_known)
-    for (const auto &contact : forces->surface_contacts)
-      result.contact -= 2. * contact->energy(); // they have been counted by facets
+  add_contact_errors(result);
+  find_unseen_contact(state, result);
   result.energy = 2. * forces->elasticity->energy();
   return result;
 }

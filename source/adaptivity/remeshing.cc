@@ -103,7 +103,8 @@ make_adapted_meshes(const ErrorEstimate &estimate, const AdaptivityParameters &a
       return std::min(wanted / scale, coarsest);
     };
   };
-  return place_simplex_meshes<dim>(bodies, discretization.degree, size_of_body);
+  return place_simplex_meshes<dim>(bodies, discretization.degree, discretization.communicator(),
+                                   size_of_body);
 }
 
 template std::vector<PlacedSimplexMesh> make_adapted_meshes(const ErrorEstimate &,

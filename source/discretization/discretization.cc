@@ -32,7 +32,7 @@ template <int dim>
 std::unique_ptr<TetrahedralPart<dim>> make_tetrahedra(const Parameters &parameters,
                                                       const MPI_Comm &communicator)
 {
-  const auto meshes = place_simplex_meshes<dim>(parameters.bodies, parameters.degree);
+  const auto meshes = place_simplex_meshes<dim>(parameters.bodies, parameters.degree, communicator);
   return meshes.empty() ? nullptr
                         : std::make_unique<TetrahedralPart<dim>>(meshes, parameters.degree, communicator);
 }

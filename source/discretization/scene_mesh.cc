@@ -1,13 +1,21 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "signorini/discretization/scene_mesh.h"
 
+#include "signorini/base/collective_error.h"
 #include "signorini/discretization/body_mesh.h"
 #include "signorini/discretization/placement.h"
 #include "signorini/parameters/mesh_parameters.h"
 
 #include <deal.II/base/bounding_box.h>
+#include <deal.II/base/mpi.h>
 #include <deal.II/grid/grid_tools.h>
 #include <deal.II/grid/manifold_lib.h>
+
+#include <boost/serialization/array.hpp>
+#include <boost/serialization/map.hpp>
+#include <boost/serialization/string.hpp>
+#include <boost/serialization/utility.hpp>
+#include <boost/serialization/vector.hpp>
 
 namespace signorini
 {
@@ -195,9 +203,11 @@ make_scene_mesh(const std::vector<BodyParameters> &bodies, const MPI_Comm &commu
   return mesh;
 }
 
+namespace
+{
 template <int dim>
-std::vector<PlacedSimplexMesh> place_simplex_meshes(const std::vector<BodyParameters> &bodies,
-                                                    unsigned int degree, const SizeOfBody &size_of_body)
+std::vector<PlacedSimplexMesh> make_and_place(const std::vector<BodyParameters> &bodies, unsigned int degree,
+                                              const SizeOfBody &size_of_body)
 {
   std::vector<PlacedSimplexMesh> meshes;
   for (unsigned int body = 0; body < bodies.size(); ++body)
@@ -227,6 +237,24 @@ std::vector<PlacedSimplexMesh> place_simplex_meshes(const std::vector<BodyParame
   }
   return meshes;
 }
+} // namespace
+
+template <int dim>
+std::vector<PlacedSimplexMesh> place_simplex_meshes(const std::vector<BodyParameters> &bodies,
+                                                    unsigned int degree, const MPI_Comm &communicator,
+                                                    const SizeOfBody &size_of_body)
+{
+  std::vector<PlacedSimplexMesh> meshes;
+  throw_together(communicator,
+                 [&]()
+                 {
+                   if (dealii::Utilities::MPI::this_mpi_process(communicator) == 0)
+                     meshes = make_and_place<dim>(bodies, degree, size_of_body);
+                 });
+  if (dealii::Utilities::MPI::n_mpi_processes(communicator) == 1)
+    return meshes;
+  return dealii::Utilities::MPI::broadcast(communicator, meshes);
+}
 
 template class FileLevels<2>;
 template class FileLevels<3>;
@@ -235,7 +263,9 @@ make_scene_mesh<2>(const std::vector<BodyParameters> &, const MPI_Comm &);
 template std::unique_ptr<dealii::parallel::distributed::Triangulation<3>>
 make_scene_mesh<3>(const std::vector<BodyParameters> &, const MPI_Comm &);
 template std::vector<PlacedSimplexMesh> place_simplex_meshes<2>(const std::vector<BodyParameters> &,
-                                                                unsigned int, const SizeOfBody &);
+                                                                unsigned int, const MPI_Comm &,
+                                                                const SizeOfBody &);
 template std::vector<PlacedSimplexMesh> place_simplex_meshes<3>(const std::vector<BodyParameters> &,
-                                                                unsigned int, const SizeOfBody &);
+                                                                unsigned int, const MPI_Comm &,
+                                                                const SizeOfBody &);
 } // namespace signorini

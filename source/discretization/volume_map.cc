@@ -36,18 +36,15 @@ template <int dim>
 struct CornerCell
 {
   Simplex<dim> properties;
-  unsigned int number = 0; ///< among its rank's cells
   std::vector<unsigned int> corners;
 };
 
-/// Adds the simplices of all cells, whose nodes are there already; returns the number of the cell of each.
+/// Adds the simplices of all cells; their nodes are there already.
 template <int dim>
-std::vector<unsigned int> add_simplices(const std::vector<CornerCell<dim>> &cells, ContactVolume<dim> &volume)
+void add_simplices(const std::vector<CornerCell<dim>> &cells, ContactVolume<dim> &volume)
 {
   CellSplitter<dim> splitter(volume);
-  std::vector<unsigned int> numbers;
   for (const CornerCell<dim> &cell : cells)
-  {
     if (cell.corners.size() == dim + 1)
     {
       Simplex<dim> simplex = cell.properties;
@@ -60,9 +57,6 @@ std::vector<unsigned int> add_simplices(const std::vector<CornerCell<dim>> &cell
       std::copy(cell.corners.begin(), cell.corners.end(), corners.begin());
       splitter.add(corners, cell.properties);
     }
-    numbers.resize(volume.simplices.size(), cell.number);
-  }
-  return numbers;
 }
 } // namespace
 
@@ -78,11 +72,12 @@ VolumeMap<dim>::VolumeMap(const Scene<dim> &scene, const Discretization<dim> &th
   std::vector<CornerCell<dim>> cells;
   for (unsigned int rank = 0; rank < packed.size(); ++rank)
   {
-    unsigned int n_cells_of_rank = 0;
+    if (rank == this_rank)
+      begin_of_own_cells = static_cast<unsigned int>(cells.size());
     for (auto value = packed[rank].begin(); value != packed[rank].end();)
     {
       CornerCell<dim> cell;
-      cell.number = n_cells_of_rank++;
+      cell.properties.cell = static_cast<unsigned int>(cells.size());
       cell.properties.owned = (rank == this_rank);
       cell.properties.body = static_cast<unsigned int>(*value++);
       cell.properties.youngs_modulus = scene.materials[cell.properties.body].youngs_modulus;
@@ -108,9 +103,10 @@ VolumeMap<dim>::VolumeMap(const Scene<dim> &scene, const Discretization<dim> &th
       cells.push_back(std::move(cell));
     }
   }
+  n_all_cells = static_cast<unsigned int>(cells.size());
   contact_volume.n_bodies = scene.n_bodies();
   contact_volume.origin = move_to_middle(contact_volume.reference_positions);
-  cells_of_simplices = add_simplices(cells, contact_volume);
+  add_simplices(cells, contact_volume);
   compute_heights(contact_volume);
   this->set_nodes(std::move(all_node_dofs));
 }

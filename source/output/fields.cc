@@ -219,8 +219,11 @@ void Fields<dim>::write(const State &state, const SceneForces<dim> &forces, cons
     if (map)
     {
       contact_data = spread(nodal, *contacts[p]);
-      output.add_data_vector(contacts[p]->dof_handler, contact_data.first, "contact_pressure");
-      output.add_data_vector(contacts[p]->dof_handler, contact_data.second, "gap");
+      const bool is_all_contact = forces.volume_contacts.empty();
+      output.add_data_vector(contacts[p]->dof_handler, contact_data.first,
+                             is_all_contact ? "contact_pressure" : "obstacle_pressure");
+      output.add_data_vector(contacts[p]->dof_handler, contact_data.second,
+                             is_all_contact ? "gap" : "obstacle_gap");
     }
     const CellData cell_data = make_cell_data(part, stresses, estimate);
     for (const auto &[name, values] : cell_data)

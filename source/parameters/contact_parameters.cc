@@ -150,7 +150,7 @@ void declare_contact(Declarations &declarations, const DeclarationScope &scope)
   contact.add(
       "Maximum penetration", number_above(0.), "0.5", "",
       "In sizes of an element: a run in which bodies sink deeper into each other stops, as they could "
-      "pass through; set far above 1, they may. Of the volume potential a quarter of that.");
+      "pass through; set far above 1, they may. Of bodies that touch by the volume potential a quarter.");
   contact.add(
       "Allow initial overlap", true_or_false(), "false", "",
       "Start although bodies overlap by more than a tenth of a cell; the energy of the overlap is reported.");

@@ -191,6 +191,20 @@ SceneNeed contact()
           }};
 }
 
+SceneNeed surface_potential()
+{
+  return {"'Potential = surface' where bodies touch each other",
+          [](const ParameterText &text, const Parameters &parameters) -> MaybeFault
+          {
+            if (!parameters.contact || parameters.bodies.size() < 2 ||
+                parameters.contact->potential == ContactParameters::Potential::surface)
+              return {};
+            SceneFault fault = fault_of_entry(text, "Contact", "Potential", "surface");
+            fault.found += ", which knows no pressures";
+            return fault;
+          }};
+}
+
 SceneNeed contact_damping()
 {
   return {"'Contact' with 'Damping'",

@@ -100,14 +100,23 @@ void Simulation<dim>::build_contact()
 }
 
 template <int dim>
-contact::ContactMeasures<dim> Simulation<dim>::measure_contact() const
+auto Simulation<dim>::measure_terms() const -> MeasuresOfTerms
 {
-  if (forces.contacts.empty())
+  MeasuresOfTerms measures;
+  for (const auto &contact : forces.contacts)
+    measures.push_back(contact->measure());
+  return measures;
+}
+
+template <int dim>
+contact::ContactMeasures<dim> Simulation<dim>::merge(const MeasuresOfTerms &measures)
+{
+  if (measures.empty())
     return {};
-  contact::ContactMeasures<dim> total = forces.contacts.front()->measure();
-  for (std::size_t i = 1; i < forces.contacts.size(); ++i)
+  contact::ContactMeasures<dim> total = measures.front();
+  for (std::size_t i = 1; i < measures.size(); ++i)
   {
-    const contact::ContactMeasures<dim> other = forces.contacts[i]->measure();
+    const contact::ContactMeasures<dim> &other = measures[i];
     if (other.max_penetration_over_thickness > total.max_penetration_over_thickness)
     {
       total.max_penetration_over_thickness = other.max_penetration_over_thickness;
@@ -128,9 +137,9 @@ contact::ContactMeasures<dim> Simulation<dim>::measure_contact() const
 }
 
 template <int dim>
-void Simulation<dim>::record_contact()
+void Simulation<dim>::record_contact(const MeasuresOfTerms &measures)
 {
-  results.contact = measure_contact();
+  results.contact = merge(measures);
   const contact::ContactMeasures<dim> &now = results.contact;
   results.max_penetration = std::max(results.max_penetration, now.max_penetration);
   results.max_penetration_over_thickness =
@@ -240,25 +249,27 @@ void Simulation<dim>::check_motion(double time_step) const
 }
 
 template <int dim>
-std::optional<Complaint>
-Simulation<dim>::find_deep_penetration(const contact::ContactMeasures<dim> &deepest) const
+std::optional<Complaint> Simulation<dim>::find_deep_penetration(const MeasuresOfTerms &measures) const
 {
   // The volume potential sees no depth beyond the inscribed ball of a simplex, an eighth of an element at
   // least.
-  const double limit = !parameters.contact ? 0.
-                       : volume_map        ? parameters.contact->max_penetration * 0.25
-                                           : parameters.contact->max_penetration;
-  if (deepest.max_penetration_over_thickness <= limit)
-    return {};
-  const bool is_a_leap = deepest.max_penetration_over_thickness > 2.;
-  return Complaint(
-             fmt::format("body '{}' sinks into what it touches by {:.3g} of its element size at t = {:.6g}",
-                         scene.body_names[deepest.deepest_body], deepest.max_penetration_over_thickness,
-                         state.time))
-      .at(format_point<dim>(deepest.deepest_position))
-      .expected(fmt::format("at most {} of an element: deeper, it could pass through", limit))
-      .advise(is_a_leap ? "it moves farther than an element in one step: check speeds, loads and units"
-                        : "raise Contact/Penalty factor, refine, or load more slowly");
+  constexpr double share_of_volumes = 0.25;
+  for (std::size_t i = 0; i < measures.size(); ++i)
+  {
+    const double limit =
+        parameters.contact->max_penetration * (i < forces.volume_contacts.size() ? share_of_volumes : 1.);
+    const double depth = measures[i].max_penetration_over_thickness;
+    if (depth <= limit)
+      continue;
+    const bool is_a_leap = depth > 2.;
+    return Complaint(fmt::format("body '{}' sinks into what it touches by {:.3g} of an element at t = {:.6g}",
+                                 scene.body_names[measures[i].deepest_body], depth, state.time))
+        .at(format_point<dim>(measures[i].deepest_position))
+        .expected(fmt::format("at most {} of an element: deeper, it could pass through", limit))
+        .advise(is_a_leap ? "it moves farther than an element in one step: check speeds, loads and units"
+                          : "raise Contact/Penalty factor, refine, or load more slowly");
+  }
+  return {};
 }
 
 template class Simulation<2>;

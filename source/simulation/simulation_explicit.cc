@@ -38,8 +38,9 @@ void Simulation<dim>::run_explicit(const ExplicitParameters &solver_parameters)
     if (end - state.time < 1e-9 * time_step)
       state.time = end;
     ++results.n_steps;
-    record_contact();
-    if (const std::optional<Complaint> fault = find_deep_penetration(results.contact))
+    const MeasuresOfTerms measures = measure_terms();
+    record_contact(measures);
+    if (const std::optional<Complaint> fault = find_deep_penetration(measures))
       throw NumericalError(*fault);
     if (state.time >= end || state.time >= end * row / n_rows)
     {

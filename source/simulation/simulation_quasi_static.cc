@@ -68,7 +68,7 @@ std::optional<Complaint> Simulation<dim>::find_equilibrium(double time)
   results.n_iterations += quasi_static_solver->n_iterations() - n_before;
   if (!is_solved)
     return Complaint(quasi_static_solver->failure()).advise(quasi_static_solver->advice());
-  std::optional<Complaint> fault = find_deep_penetration(measure_contact());
+  std::optional<Complaint> fault = find_deep_penetration(measure_terms());
   const double disturbance = quasi_static_solver->renewal_residual();
   if (!fault && disturbance > largest_disturbance)
     fault = Complaint(

@@ -41,7 +41,7 @@ Triple force_of_pair(const typename contact::PairForces<dim>::Table &table, unsi
 template <int dim>
 void Simulation<dim>::record_state()
 {
-  record_contact();
+  record_contact(measure_terms());
   contact::PairForces<dim> pair_forces;
   for (const auto &term : forces.contacts)
   {

@@ -105,6 +105,20 @@ double estimate_nodes(const MeshParameters &mesh, double n_cells, unsigned int d
   return n_cells * (degree == 1 ? 0.5 : 2.);
 }
 
+/// Simplices that the volume potential makes of a cell.
+double n_simplices_of_cell(const MeshParameters &mesh, unsigned int dimension)
+{
+  if (mesh.cell_type == MeshParameters::CellType::tetrahedra)
+    return 1.;
+  return dimension == 3 ? 24. : 4.;
+}
+
+bool is_by_volumes(const Parameters &parameters)
+{
+  return parameters.contact && parameters.contact->potential == ContactParameters::Potential::volume &&
+         parameters.bodies.size() > 1;
+}
+
 /// That of the machines on which the ranks run, each counted once [bytes].
 double available_memory(const MPI_Comm &communicator)
 {
@@ -119,14 +133,15 @@ double available_memory(const MPI_Comm &communicator)
 
 SizeEstimate estimate_size(const Parameters &parameters, unsigned int n_ranks)
 {
-  // Measured: a program without cells, a coarse cell on every rank, a cell beside its table of gradients. A
-  // matrix entry takes 16 bytes; its preconditioner or factors at least as much as two further matrices.
+  // Measured: a program without cells, a coarse cell on every rank, a cell beside its table of gradients, a
+  // simplex of the volume potential on every rank. A matrix entry takes 16 bytes; its preconditioner or
+  // factors at least as much as two further matrices.
   constexpr double bytes_of_program = 1.5e8, bytes_of_coarse_cell = 1e3, bytes_of_cell = 2e3,
-                   bytes_of_entry = 3. * 16.;
+                   bytes_of_simplex = 300., bytes_of_entry = 3. * 16.;
   const unsigned int dim = parameters.dimension, degree = parameters.degree;
   const double n_cell_nodes = std::pow(degree + 1., dim);
   SizeEstimate size;
-  double n_coarse = 0., most_cells = 0.;
+  double n_coarse = 0., n_simplices = 0., most_cells = 0.;
   for (const BodyParameters &body : parameters.bodies)
   {
     const double n_cells = estimate_cells(body.mesh, dim);
@@ -135,10 +150,12 @@ SizeEstimate estimate_size(const Parameters &parameters, unsigned int n_ranks)
     most_cells = std::max(most_cells, n_cells);
     n_coarse += n_coarse_cells(body.mesh, dim);
     size.n_cells += n_cells;
+    n_simplices += is_by_volumes(parameters) ? n_cells * n_simplices_of_cell(body.mesh, dim) : 0.;
     size.n_dofs += dim * estimate_nodes(body.mesh, n_cells, dim, degree);
   }
-  size.memory = n_ranks * (bytes_of_program + bytes_of_coarse_cell * n_coarse) +
-                size.n_cells * (bytes_of_cell + 1.5 * sizeof(double) * dim * n_cell_nodes * n_cell_nodes);
+  size.memory =
+      n_ranks * (bytes_of_program + bytes_of_coarse_cell * n_coarse + bytes_of_simplex * n_simplices) +
+      size.n_cells * (bytes_of_cell + 1.5 * sizeof(double) * dim * n_cell_nodes * n_cell_nodes);
   if (std::holds_alternative<QuasiStaticParameters>(parameters.solver))
     size.memory += size.n_dofs * dim * std::pow(degree + 2., dim) * bytes_of_entry;
   return size;

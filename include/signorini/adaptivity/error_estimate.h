@@ -11,7 +11,7 @@ namespace signorini
 struct ErrorEstimate
 {
   std::vector<double> cell_discretization; ///< [own cell]
-  std::vector<double> cell_contact;        ///< [own cell] of its facets
+  std::vector<double> cell_contact;        ///< [own cell] of its facets and overlaps
   std::vector<bool> is_contact_unseen;     ///< [own cell] it may be in contact but is too large to tell
   bool is_any_contact_unseen = false;      ///< in any cell of any rank
   double discretization = 0.;              ///< of all cells of all ranks

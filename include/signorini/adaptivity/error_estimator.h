@@ -14,13 +14,14 @@ namespace signorini
 ///
 /// *Discretisation:* η_K² = ∫_K (σ* − σ_h) : C⁻¹ : (σ* − σ_h) dV with a recovered stress σ*, which on
 /// boundary faces is made to balance what is known of their traction t: σ* n = t with t of the loads, of
-/// contact, or zero, in every component that no support prescribes (unless bodies touch by the volume
-/// potential, which knows no traction). A free face and a face under contact
-/// pressure are not the same.
+/// contact, or zero, in every component that no support prescribes. A free face and a face under contact
+/// pressure are not the same. Faces that the volume potential presses on, which knows no traction, stay as
+/// recovered.
 ///
-/// *Contact:* η_K² = Σ_q A_q k_A d_q² over the points of the cell's facets. Load controlled, the penalty
-/// lowers the minimum of the energy by half the sum of these, as ‖e‖²/2 raises it for a discretisation error
-/// e.
+/// *Contact:* η_K² = Σ_q A_q k_A d_q² over the points of the cell's facets; W of every overlap of the volume
+/// potential that the cell takes part in, as the sum over both cells is 2W then too. Load controlled, the
+/// penalty lowers the minimum of the energy by half the sum of these, as ‖e‖²/2 raises it for a
+/// discretisation error e.
 template <int dim>
 class ErrorEstimator
 {
@@ -41,6 +42,9 @@ private:
   void balance_tractions(const BoundaryFace<dim> &face, double time, const NodalPressures<dim> &pressures,
                          std::vector<Eigen::Matrix3d> &nodal) const;
   SpatialVector<dim> load_traction(const BoundaryFace<dim> &face, unsigned int node, double time) const;
+  /// [boundary face]
+  std::vector<bool> find_unknown_tractions() const;
+  void add_contact_errors(ErrorEstimate &result) const;
   void find_unseen_contact(const State &state, ErrorEstimate &result) const;
   double squared_error(unsigned int cell, const std::vector<Eigen::Matrix3d> &nodal,
                        const Eigen::Matrix3d *point_stresses) const;
@@ -49,7 +53,6 @@ private:
   const Scene<dim> *scene;
   const SceneForces<dim> *forces;
   const SurfaceMap<dim> *map;
-  const bool are_tractions_known; ///< not where bodies touch by the volume potential
   StressRecovery<dim> recovery;
   std::vector<BoundaryFace<dim>> faces;
 };

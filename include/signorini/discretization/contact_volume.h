@@ -22,6 +22,7 @@ struct Simplex
 
   std::array<unsigned int, n_vertices> vertices{}; ///< nodes of the volume, or its centres counted after them
   unsigned int body = 0;                           ///< index of the body it belongs to
+  unsigned int cell = 0;                           ///< index of its element among those of all ranks
   bool owned = true;                               ///< whether this rank evaluates its pairs
   double youngs_modulus = 0.;                      ///< E [Pa]
   double density = 0.;                             ///< ρ [kg/m³]

@@ -14,7 +14,7 @@ constexpr double n_cells_of_cube(unsigned int dimension)
 }
 
 /// A mesh of tetrahedra (triangles) of a box, ball or cylinder, or of the shape in a file, made by Gmsh: the
-/// same on every rank and in every run. Boundaries are named as boundary_names() says.
+/// same in every run. Boundaries are named as boundary_names() says.
 ///
 /// `size`: length of edges [m] at a point in own coordinates, all finite and positive. `degree` 2: edges at
 /// curved boundaries have their middle nodes there, but for cells that this would fold: their edges stay

@@ -53,8 +53,9 @@ using SizeOfBody = std::function<SizeField(unsigned int)>;
 
 /// The meshes of all bodies of tetrahedra, where the bodies stand in the scene; curved edges for degree 2.
 /// With `size_of_body` those that do not come from a mesh file are made with these sizes instead of the
-/// parameters'.
+/// parameters'. The first rank makes them for all, so that none can have another one (collective).
 template <int dim>
 std::vector<PlacedSimplexMesh> place_simplex_meshes(const std::vector<BodyParameters> &bodies,
-                                                    unsigned int degree, const SizeOfBody &size_of_body = {});
+                                                    unsigned int degree, const MPI_Comm &communicator,
+                                                    const SizeOfBody &size_of_body = {});
 } // namespace signorini

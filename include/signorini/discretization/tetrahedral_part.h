@@ -14,6 +14,12 @@ struct PlacedSimplexMesh
 {
   unsigned int body = 0;
   SimplexMesh mesh;
+
+  template <typename Archive>
+  void serialize(Archive &archive, unsigned int)
+  {
+    archive &body &mesh;
+  }
 };
 
 /// The bodies of tetrahedra (triangles), shared out among the ranks once and for all.

@@ -18,14 +18,16 @@ public:
 
   const ContactVolume<dim> &volume() const { return contact_volume; }
 
-  /// The cell that a simplex is or is a part of, an own cell of the rank that owns the simplex.
-  unsigned int cell_of(unsigned int simplex) const { return cells_of_simplices[simplex]; }
+  /// Elements of all ranks, which Simplex::cell counts; those of this rank are in a row.
+  unsigned int n_cells() const { return n_all_cells; }
+  unsigned int first_own_cell() const { return begin_of_own_cells; }
+  unsigned int n_own_cells() const { return this->discretization->cells.n_cells; }
 
   /// Positions of the volume's nodes, from its origin [m] (collective).
   std::vector<SpatialVector<dim>> positions(const Vector &displacement) const;
 
 private:
   ContactVolume<dim> contact_volume;
-  std::vector<unsigned int> cells_of_simplices;
+  unsigned int n_all_cells = 0, begin_of_own_cells = 0;
 };
 } // namespace signorini

@@ -20,6 +20,12 @@ struct SimplexMesh
   {
     std::array<unsigned int, 3> vertices{}; ///< the first `dimension` count
     unsigned int boundary = 0;              ///< index into `boundary_names`
+
+    template <typename Archive>
+    void serialize(Archive &archive, unsigned int)
+    {
+      archive &vertices &boundary;
+    }
   };
 
   unsigned int dimension = 3;
@@ -33,5 +39,12 @@ struct SimplexMesh
   /// Middle nodes of the curved edges, by their end vertices (the smaller first) [m]; the other edges are
   /// straight.
   std::map<std::pair<unsigned int, unsigned int>, Triple> edge_midpoints;
+
+  /// For Boost's archives, by which ranks send meshes to each other.
+  template <typename Archive>
+  void serialize(Archive &archive, unsigned int)
+  {
+    archive &dimension &vertices &cells &regions &faces &region_names &boundary_names &edge_midpoints;
+  }
 };
 } // namespace signorini

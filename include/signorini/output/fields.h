@@ -19,8 +19,10 @@ namespace signorini
 ///
 /// Point data: displacement [m], velocity [m/s] (explicit runs), contact_pressure [Pa] and gap [m] (with
 /// contact; of the pressure see ContactForce::nodal_pressures(); the gap is at most one layer thickness and
-/// negative where bodies overlap). Cell data: body, error_indicator (its share of the estimated error in the
-/// energy norm, both parts [J^½]), von_mises_stress and the components of the true stress [Pa].
+/// negative where bodies overlap). Where bodies touch by the volume potential, which knows neither, these are
+/// obstacle_pressure and obstacle_gap, of contact with obstacles alone. Cell data: body, error_indicator (its
+/// share of the estimated error in the energy norm, both parts [J^½]), von_mises_stress and the components of
+/// the true stress [Pa].
 template <int dim>
 class Fields
 {

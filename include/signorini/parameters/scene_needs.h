@@ -29,6 +29,8 @@ SceneNeed dimension_equal_to(unsigned int dimension);
 SceneNeed quasi_static_run();
 SceneNeed explicit_run();
 SceneNeed contact();
+/// Pressures of all contact are known.
+SceneNeed surface_potential();
 SceneNeed contact_damping();
 SceneNeed number_of_bodies(unsigned int number);
 SceneNeed number_of_obstacles(unsigned int number);

@@ -82,12 +82,17 @@ private:
   void say_equilibrium(double end_time);
   /// Throws NumericalError if points could jump over what they ought to touch in an explicit step.
   void check_motion(double time_step) const;
+  /// Of each term of contact.
+  using MeasuresOfTerms = std::vector<contact::ContactMeasures<dim>>;
   /// Whether points are so deep that they could pass through.
-  std::optional<Complaint> find_deep_penetration(const contact::ContactMeasures<dim> &deepest) const;
-  /// Of all contact terms at their last update (collective).
-  contact::ContactMeasures<dim> measure_contact() const;
+  std::optional<Complaint> find_deep_penetration(const MeasuresOfTerms &measures) const;
+  /// At the last update of the terms (collective).
+  MeasuresOfTerms measure_terms() const;
+  /// Of all terms together (collective).
+  contact::ContactMeasures<dim> measure_contact() const { return merge(measure_terms()); }
+  static contact::ContactMeasures<dim> merge(const MeasuresOfTerms &measures);
   /// Takes a state that is part of the run into the results and their peaks.
-  void record_contact();
+  void record_contact(const MeasuresOfTerms &measures);
   void record_bodies(const contact::PairForces<dim> &pair_forces);
   void record_contact_forces(const contact::PairForces<dim> &pair_forces);
   void record_support_forces(const Vector &reactions);

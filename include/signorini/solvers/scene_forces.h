@@ -16,9 +16,9 @@ struct SceneForces
 {
   std::shared_ptr<InternalForce<dim>> elasticity;
   std::vector<std::shared_ptr<ForceTerm>> loads;
-  std::vector<std::shared_ptr<ContactTerm<dim>>> contacts;
+  std::vector<std::shared_ptr<ContactTerm<dim>>> contacts;               ///< all, those by volumes first
   std::vector<std::shared_ptr<VolumeContactForce<dim>>> volume_contacts; ///< those of `contacts` by volumes
-  std::vector<std::shared_ptr<ContactForce<dim>>> surface_contacts;      ///< those of `contacts` by surfaces
+  std::vector<std::shared_ptr<ContactForce<dim>>> surface_contacts;      ///< those by surfaces
   std::vector<std::shared_ptr<ContactForce<dim>>> damped_contacts;       ///< of these, those with damping
 };
 } // namespace signorini

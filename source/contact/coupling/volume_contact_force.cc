@@ -3,6 +3,8 @@
 
 #include <deal.II/base/mpi.h>
 
+#include <algorithm>
+
 namespace signorini
 {
 template <int dim>
@@ -87,8 +89,35 @@ std::vector<unsigned int> VolumeContactForce<dim>::cells_of_pairs() const
 {
   std::vector<unsigned int> cells;
   for (const auto &pair : potential.pairs())
-    cells.push_back(map->cell_of(pair.first));
+    cells.push_back(map->volume().simplices[pair.first].cell - map->first_own_cell());
   return cells;
+}
+
+template <int dim>
+std::vector<double> VolumeContactForce<dim>::cell_errors() const
+{
+  std::vector<double> errors(map->n_cells(), 0.);
+  potential.add_cell_errors(errors);
+  dealii::Utilities::MPI::sum(errors, this->communicator, errors);
+  const auto first = errors.begin() + map->first_own_cell();
+  return {first, first + map->n_own_cells()};
+}
+
+template <int dim>
+std::set<std::vector<dealii::types::global_dof_index>> VolumeContactForce<dim>::faces_in_contact() const
+{
+  std::vector<std::vector<dealii::types::global_dof_index>> own;
+  for (const std::vector<unsigned int> &nodes : potential.faces_in_contact())
+  {
+    own.emplace_back();
+    for (const unsigned int node : nodes)
+      own.back().push_back(map->node_dofs(node)[0]);
+    std::sort(own.back().begin(), own.back().end());
+  }
+  std::set<std::vector<dealii::types::global_dof_index>> all;
+  for (const auto &of_rank : dealii::Utilities::MPI::all_gather(this->communicator, own))
+    all.insert(of_rank.begin(), of_rank.end());
+  return all;
 }
 
 template class VolumeContactForce<2>;

@@ -216,12 +216,24 @@ void note_depths(const SimplexPair<dim> &pair, const ConvexPolytope<dim> &part,
     {
       const double depth = below_faces.template segment<dim + 1>(i * (dim + 1)).minCoeff();
       const double lowest = corner.template segment<dim + 1>(i * (dim + 1)).minCoeff();
-      if (depth > std::max(state.depths[0], state.depths[1]))
-        state.deepest_position = locate<dim>(*pair.shapes[0], corner);
+      if (depth > state.depths[i])
+        state.deepest_positions[i] = locate<dim>(*pair.shapes[0], corner);
       state.depths[i] = std::max(state.depths[i], depth);
       state.largest_potentials[i] = std::max(state.largest_potentials[i], pair.strengths[i] * lowest);
     }
   }
+}
+/// Whether a face of the overlap lies within that simplex which is not its own, rather than in a face of it.
+template <int dim>
+bool is_within(const ConvexPolytope<dim> &overlap, const typename ConvexPolytope<dim>::Face &face)
+{
+  constexpr double least = 1e-9; // of the height
+  Coordinates<dim> sum = Coordinates<dim>::Zero();
+  for (const unsigned int vertex : face.vertices)
+    sum += overlap.vertices()[vertex];
+  const unsigned int other = 1 - face.label / (dim + 1);
+  return sum.template segment<dim + 1>(other * (dim + 1)).minCoeff() >
+         least * static_cast<double>(face.vertices.size());
 }
 } // namespace
 
@@ -234,9 +246,12 @@ auto SimplexPair<dim>::evaluate() const -> std::optional<State>
   State state;
   const Coordinates<dim> heights = measure_heights(*this);
   for (const auto &face : overlap.faces())
+  {
+    state.is_face_in_contact[face.label] = is_within(overlap, face);
     if (face.label / (dim + 1) == 1)
       state.area += integrate_products(overlap, face).template bottomRightCorner<dim + 1, dim + 1>().sum() *
                     shapes[1]->area_vector(face.label % (dim + 1));
+  }
 
   for (unsigned int owner = 0; owner < 2; ++owner)
   {

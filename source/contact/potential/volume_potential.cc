@@ -139,14 +139,24 @@ void VolumePotential<dim>::add_forces(std::vector<SpatialVector<dim>> &forces) c
 }
 
 template <int dim>
-std::vector<unsigned int> VolumePotential<dim>::nodes_of(unsigned int pair) const
+template <typename Vertices>
+std::vector<unsigned int> VolumePotential<dim>::collect_nodes(const Vertices &vertices) const
 {
   std::vector<unsigned int> nodes;
-  for (unsigned int p = 0; p < SimplexPair<dim>::n_vertices; ++p)
-    volume.for_each_node(vertex(pair, p), [&](unsigned int node, double) { nodes.push_back(node); });
+  for (const unsigned int v : vertices)
+    volume.for_each_node(v, [&](unsigned int node, double) { nodes.push_back(node); });
   std::sort(nodes.begin(), nodes.end());
   nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
   return nodes;
+}
+
+template <int dim>
+std::vector<unsigned int> VolumePotential<dim>::nodes_of(unsigned int pair) const
+{
+  std::array<unsigned int, SimplexPair<dim>::n_vertices> vertices;
+  for (unsigned int p = 0; p < vertices.size(); ++p)
+    vertices[p] = vertex(pair, p);
+  return collect_nodes(vertices);
 }
 
 template <int dim>
@@ -246,9 +256,9 @@ ContactMeasures<dim> VolumePotential<dim>::measure() const
       if (relative_depth > measures.max_penetration_over_thickness)
       {
         measures.max_penetration_over_thickness = relative_depth;
-        measures.deepest_body = simplex(pair, 0).body;
+        measures.deepest_body = simplex(pair, 1 - side).body;
         measures.deepest_thickness = simplex(pair, side).layer_thickness;
-        measures.deepest_position = state.deepest_position;
+        measures.deepest_position = state.deepest_positions[side];
       }
     }
   }
@@ -263,6 +273,31 @@ PairForces<dim> VolumePotential<dim>::pair_forces() const
     forces.bodies.try_emplace({simplex(pair, 0).body, simplex(pair, 1).body}, SpatialVector<dim>::Zero())
         .first->second += force_on_first(state);
   return forces;
+}
+
+template <int dim>
+void VolumePotential<dim>::add_cell_errors(std::vector<double> &errors) const
+{
+  for (const auto &[pair, state] : overlaps)
+    for (unsigned int side = 0; side < 2; ++side)
+      errors[simplex(pair, side).cell] += state.energy;
+}
+
+template <int dim>
+std::set<std::vector<unsigned int>> VolumePotential<dim>::faces_in_contact() const
+{
+  std::set<std::vector<unsigned int>> faces;
+  for (const auto &[pair, state] : overlaps)
+    for (unsigned int opposite = 0; opposite < SimplexPair<dim>::n_vertices; ++opposite)
+      if (state.is_face_in_contact[opposite])
+      {
+        std::array<unsigned int, dim> corners;
+        const auto &vertices = simplex(pair, opposite / (dim + 1)).vertices;
+        for (unsigned int i = 0; i < dim; ++i)
+          corners[i] = vertices[i < opposite % (dim + 1) ? i : i + 1];
+        faces.insert(collect_nodes(corners));
+      }
+  return faces;
 }
 
 template class VolumePotential<2>;

@@ -22,6 +22,15 @@ TEST(ThrowTogether, KeepsTheWholeComplaint)
   EXPECT_EQ(message, original.what());
 }
 
+TEST(ThrowTogether, KeepsTheKind)
+{
+  const auto fail_with = [](const auto &error)
+  { return [error]() { throw_together(MPI_COMM_WORLD, [&error]() { throw error; }); }; };
+  EXPECT_THROW(fail_with(InputError("input"))(), InputError);
+  EXPECT_THROW(fail_with(FileError("file"))(), FileError);
+  EXPECT_THROW(fail_with(NumericalError("number"))(), NumericalError);
+}
+
 TEST(ThrowTogether, IsSilentWithoutAFault)
 {
   bool is_called = false;

@@ -217,7 +217,13 @@ TYPED_TEST(SimplexPairTest, MeasuresOfAFlatOverlap)
   EXPECT_NEAR(state->largest_potentials[1], 7. * overlap, 1e-15);
   // That of the common face but for strips along the slanting sides.
   EXPECT_NEAR(state->area[dim - 1], 1. / (dim - 1), 1.6 * overlap);
-  EXPECT_LT(std::abs(state->deepest_position[dim - 1] - .5 * overlap), .51 * overlap);
+  // Deepest below the face of one lies a point on the face of the other.
+  EXPECT_NEAR(state->deepest_positions[0][dim - 1], overlap, 1e-15);
+  EXPECT_NEAR(state->deepest_positions[1][dim - 1], 0., 1e-15);
+  // Their sides lie in the same planes, not within the other one.
+  for (unsigned int opposite = 0; opposite <= dim; ++opposite)
+    for (const unsigned int first : {0u, dim + 1u})
+      EXPECT_EQ(state->is_face_in_contact[first + opposite], opposite == 0 || opposite == dim);
 }
 
 /// Vertices of unit mass: the largest eigenvalue, at this place and at any that a small motion leads to.

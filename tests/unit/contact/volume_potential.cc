@@ -26,12 +26,12 @@ TYPED_TEST_SUITE(VolumePotentialTest, testing::Dimensions);
 template <int dim>
 constexpr unsigned int n_lower_nodes = dim == 2 ? 16 : 64;
 
-/// Two flat unit boxes of unlike material and mesh, one upon the other.
+/// Two flat unit boxes of unlike material and mesh, 3 cells and 2 along each edge, one upon the other.
 template <int dim>
-ContactVolume<dim> make_slabs(Cells cells, double overlap)
+ContactVolume<dim> make_slabs(Cells cells, double overlap, bool is_upper_finer = false)
 {
   BoxBody<dim> lower, upper;
-  lower.n_faces = 3;
+  (is_upper_finer ? upper : lower).n_faces = 3;
   upper.corner[dim - 1] = 1. - overlap;
   upper.youngs_modulus = 4e3;
   return BoxVolumeBuilder<dim>({lower, upper}, cells).volume;
@@ -66,10 +66,24 @@ TYPED_TEST(VolumePotentialTest, SlabsPushWithTheStiffnessOfTheSurfacePotential)
       EXPECT_NEAR(measures.max_penetration, overlap, .3 * overlap);
       EXPECT_NEAR(measures.max_penetration_over_thickness, 3. * overlap, overlap);
       EXPECT_NEAR(measures.max_pressure, exact, 1e-9 * exact);
-      EXPECT_NEAR(measures.deepest_position[dim - 1], 1. - .5 * overlap, .51 * overlap);
       EXPECT_EQ(potential.pair_forces().bodies.at({0, 1}), measures.resultants[0]);
       EXPECT_LT((measures.resultants[0] + measures.resultants[1]).norm(), 1e-12 * force);
     }
+}
+
+/// Deepest, in their sizes, in the smaller elements lies a point on the face of the other body.
+TYPED_TEST(VolumePotentialTest, DeepestIsThePointInTheThinnerElement)
+{
+  constexpr int dim = TypeParam::value;
+  constexpr double overlap = 1e-3;
+  for (const bool is_upper_finer : {false, true})
+  {
+    const auto volume = make_slabs<dim>(Cells::simplices, overlap, is_upper_finer);
+    const auto measures = evaluate<dim>(volume, volume.reference_positions).measure();
+    EXPECT_EQ(measures.deepest_body, is_upper_finer ? 0u : 1u);
+    EXPECT_NEAR(measures.deepest_thickness, 1. / 3., 1e-14);
+    EXPECT_NEAR(measures.deepest_position[dim - 1], is_upper_finer ? 1. : 1. - overlap, 1e-14);
+  }
 }
 
 /// Laid exactly upon each other: nothing acts, but the tangent holds them with k_A.

@@ -78,7 +78,7 @@ TYPED_TEST(SimplexFields, ReplacedMeshesKeepWhatBothHold)
   Vector values = built.interpolate(field);
   const auto n_old_dofs = built.discretization.n_dofs();
   built.discretization.replace_tetrahedra(
-      place_simplex_meshes<dim>(make_bodies<dim>({4, 3, 5}), TypeParam::degree), {&values});
+      place_simplex_meshes<dim>(make_bodies<dim>({4, 3, 5}), TypeParam::degree, MPI_COMM_WORLD), {&values});
   ASSERT_GT(built.discretization.n_dofs(), n_old_dofs);
   Vector error = built.interpolate(field);
   error -= values;

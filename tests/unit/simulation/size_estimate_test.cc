@@ -65,6 +65,30 @@ TEST(SizeEstimate, IsNearForGradedMeshes)
   EXPECT_GT(estimate_size(with_body(box, 3), 1).n_cells, 0.3 * graded_box);
 }
 
+/// The volume potential holds the simplices of all cells on every rank.
+TEST(SizeEstimate, VolumePotentialCostsMemoryOnEveryRank)
+{
+  MeshParameters mesh;
+  mesh.cells = {4, 4, 4};
+  const auto memory_of_simplices =
+      [&mesh](unsigned int dimension, unsigned int n_ranks, unsigned int n_bodies)
+  {
+    Parameters parameters = with_body(mesh, dimension);
+    parameters.bodies.resize(n_bodies, parameters.bodies[0]);
+    parameters.contact.emplace();
+    const double without = estimate_size(parameters, n_ranks).memory;
+    parameters.contact->potential = ContactParameters::Potential::volume;
+    return estimate_size(parameters, n_ranks).memory - without;
+  };
+  const double of_hexahedra = memory_of_simplices(3, 1, 2);
+  EXPECT_GT(of_hexahedra, 2. * 64. * 24. * 100.); // less than its positions would take is wrong
+  EXPECT_NEAR(memory_of_simplices(3, 8, 2) / of_hexahedra, 8., 1e-9);
+  EXPECT_NEAR(memory_of_simplices(2, 1, 2) / of_hexahedra, 16. * 4. / (64. * 24.), 1e-9);
+  EXPECT_EQ(memory_of_simplices(3, 8, 1), 0.);
+  mesh.cell_type = MeshParameters::CellType::tetrahedra;
+  EXPECT_NEAR(memory_of_simplices(3, 1, 2) / of_hexahedra, 6. / 24., 1e-9);
+}
+
 TEST(SizeEstimate, IsNearForTetrahedra)
 {
   MeshParameters box;

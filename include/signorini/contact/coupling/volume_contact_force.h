@@ -33,6 +33,14 @@ public:
   /// The own cell of the first simplex of every pair of this rank, near or overlapping, [pair].
   std::vector<unsigned int> cells_of_pairs() const;
 
+  /// Square of what the penalty leaves of the error in the energy norm, 2W of the overlaps, half to either
+  /// element, [own cell] [J; J/m in 2-D] (collective).
+  std::vector<double> cell_errors() const;
+
+  /// Faces of elements, inner ones included, which lie in another body at least in part: each by the first
+  /// degrees of freedom of its nodes in ascending order; of all ranks, on every rank (collective).
+  std::set<std::vector<dealii::types::global_dof_index>> faces_in_contact() const;
+
 private:
   const VolumeMap<dim> *map;
   contact::VolumePotential<dim> potential;

@@ -13,16 +13,16 @@ namespace signorini::contact
 template <int dim>
 struct ContactMeasures
 {
-  double max_penetration = 0.; ///< [m]
-  double max_penetration_over_thickness =
-      0.;                        ///< over the h of the point's own facet, or the target's room if less
-  double max_pressure = 0.;      ///< k_A d, per undeformed area [Pa]
-  double max_stiffness = 0.;     ///< k_A over all pairs [Pa/m]
-  double area = 0.;              ///< undeformed area under positive pressure [m²; m in 2-D]
-  unsigned int n_pairs = 0;      ///< point–target pairs in the list
-  unsigned int n_active = 0;     ///< of these, those with positive depth
-  unsigned int deepest_body = 0; ///< whose point or element reaches max_penetration_over_thickness
-  double deepest_thickness = 0.; ///< h there [m]
+  double max_penetration = 0.;                ///< [m]
+  double max_penetration_over_thickness = 0.; ///< over the h of the point's own facet, or the target's room
+                                              ///< if less; of volumes, that of the target
+  double max_pressure = 0.;                   ///< k_A d, per undeformed area [Pa]
+  double max_stiffness = 0.;                  ///< k_A over all pairs [Pa/m]
+  double area = 0.;                           ///< undeformed area under positive pressure [m²; m in 2-D]
+  unsigned int n_pairs = 0;                   ///< point–target pairs in the list
+  unsigned int n_active = 0;                  ///< of these, those with positive depth
+  unsigned int deepest_body = 0;              ///< whose point reaches max_penetration_over_thickness
+  double deepest_thickness = 0.;              ///< that h [m]
   SpatialVector<dim> deepest_position = SpatialVector<dim>::Zero();
   std::vector<SpatialVector<dim>>
       resultants; ///< contact force on every body [N; N/m in 2-D], without damping

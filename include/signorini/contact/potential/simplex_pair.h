@@ -42,11 +42,17 @@ struct SimplexPair
     double energy = 0.;                                   ///< W [J]
     Forces forces;                                        ///< −∂W/∂x [N]
     SpatialVector<dim> area = SpatialVector<dim>::Zero(); ///< ∫ n dS over ∂B∩A [m²; m in 2-D]
-    std::array<double, 2> depths{0., 0.};             ///< the largest below the nearest face of A, of B [m]
-    std::array<double, 2> largest_potentials{0., 0.}; ///< max φ_A, max φ_B [Pa]
-    SpatialVector<dim> deepest_position = SpatialVector<dim>::Zero(); ///< where the larger of the depths is
+    std::array<bool, n_vertices>
+        is_face_in_contact{};             ///< of the face opposite: whether a part is within the other
+    std::array<double, 2> depths{0., 0.}; ///< the largest below the nearest face of A, of B [m]
+    std::array<double, 2> largest_potentials{0., 0.};    ///< max φ_A, max φ_B [Pa]
+    std::array<SpatialVector<dim>, 2> deepest_positions; ///< where these depths are
 
-    State() { forces.fill(SpatialVector<dim>::Zero()); }
+    State()
+    {
+      forces.fill(SpatialVector<dim>::Zero());
+      deepest_positions.fill(SpatialVector<dim>::Zero());
+    }
   };
 
   /// Nothing where they do not overlap. Depths and potentials are those at the corners of the overlap's parts

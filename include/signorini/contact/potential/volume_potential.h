@@ -6,6 +6,7 @@
 #include "signorini/contact/search/simplex_search.h"
 
 #include <functional>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -84,11 +85,19 @@ public:
   /// Of a pair, the depth is that of the corners of its overlap below the nearest face, inner ones included,
   /// of either simplex, over the h of that one: it saturates before H/dim, deeper than which no point of a
   /// simplex lies. The pressure is 2 max φ, k_A d at flat layers; the area that of the second body's deformed
-  /// surface in the first one, inner faces cancelling; the deepest body that of the first simplex.
+  /// surface in the first one, inner faces cancelling; the deepest body the one whose point lies that deep.
   ContactMeasures<dim> measure() const;
 
   /// Resultants by pair of bodies.
   PairForces<dim> pair_forces() const;
+
+  /// Adds 2W of every overlap, half to either element, to a list by element, [Simplex::cell]: the square of
+  /// what the penalty leaves of the error in the energy norm [J; J/m in 2-D].
+  void add_cell_errors(std::vector<double> &errors) const;
+
+  /// Faces of elements, inner ones included, which lie in another body at least in part, each by its nodes in
+  /// ascending order.
+  std::set<std::vector<unsigned int>> faces_in_contact() const;
 
 private:
   using State = typename SimplexPair<dim>::State;
@@ -97,6 +106,9 @@ private:
   SimplexPair<dim> make_pair(unsigned int pair) const;
   const Simplex<dim> &simplex(unsigned int pair, unsigned int side) const;
   unsigned int vertex(unsigned int pair, unsigned int index) const;
+  /// Nodes that some vertices are made of, in ascending order.
+  template <typename Vertices>
+  std::vector<unsigned int> collect_nodes(const Vertices &vertices) const;
   std::vector<unsigned int> nodes_of(unsigned int pair) const;
 
   /// Force on the pair's first simplex.

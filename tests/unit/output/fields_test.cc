@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "signorini/output/fields.h"
+
+#include "signorini/adaptivity/error_estimator.h"
+
+#include "../contact_bodies.h"
+
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+using namespace signorini;
+using namespace signorini::test;
+
+namespace
+{
+namespace files = std::filesystem;
+
+/// What is written of two bodies on a floor whose contact with each other is that of surfaces or of volumes.
+std::string write_fields(bool is_by_volumes)
+{
+  BuiltScene<2> built(make_overlapping_bodies<2>(), 1,
+                      [](Parameters &p) { p.obstacles = {make_floor<2>(.01)}; });
+  built.add_contact(make_settings(contact::Integration::face_quadrature));
+  const VolumeMap<2> volume_map(built.scene, built.discretization);
+  if (is_by_volumes)
+  {
+    built.forces.volume_contacts.push_back(std::make_shared<VolumeContactForce<2>>(
+        "contact", volume_map, contact::VolumePotentialSettings(), MPI_COMM_WORLD));
+    built.forces.contacts.push_back(built.forces.volume_contacts.back());
+  }
+  built.forces.elasticity->update(built.state);
+  for (const auto &contact : built.forces.contacts)
+    contact->renew(built.state);
+  const ErrorEstimate estimate =
+      ErrorEstimator<2>(built.discretization, built.scene, built.forces, &built.map).estimate(built.state);
+
+  const files::path folder = files::path(testing::TempDir()) / "signorini_fields";
+  files::remove_all(folder);
+  files::create_directories(folder);
+  Fields<2> fields(folder);
+  fields.set_mesh(built.discretization, &built.map);
+  fields.write(built.state, built.forces, estimate);
+  std::ostringstream content;
+  content << std::ifstream(folder / "solution_0000.0.vtu").rdbuf();
+  files::remove_all(folder);
+  return content.str();
+}
+
+/// The volume potential knows no pressure: one that is 0 between the bodies would be wrong.
+TEST(Fields, NamePressuresAfterTheContactTheyAreOf)
+{
+  const std::string of_surfaces = write_fields(false), of_volumes = write_fields(true);
+  const auto has = [](const std::string &content, const std::string &field)
+  { return content.find("Name=\"" + field + "\"") != std::string::npos; };
+  for (const std::string field : {"contact_pressure", "gap"})
+  {
+    EXPECT_TRUE(has(of_surfaces, field));
+    EXPECT_FALSE(has(of_volumes, field));
+  }
+  for (const std::string field : {"obstacle_pressure", "obstacle_gap"})
+  {
+    EXPECT_FALSE(has(of_surfaces, field));
+    EXPECT_TRUE(has(of_volumes, field));
+  }
+}
+} // namespace
