@@ -90,9 +90,16 @@ def values_of(grid, name):
     return numpy.linalg.norm(values, axis=1) if values.ndim > 1 else values
 
 
+def contact_pressure_of(grid):
+    """The pressure of all contact, or of obstacles alone where no more is known, or None."""
+    pressure = values_of(grid, "contact_pressure")
+    return values_of(grid, "obstacle_pressure") if pressure is None else pressure
+
+
 def choose_field(grids):
     for name, title in (("von_mises_stress", "von Mises stress [Pa]"),
-                        ("contact_pressure", "contact pressure [Pa]"), ("displacement", "displacement [m]")):
+                        ("contact_pressure", "contact pressure [Pa]"),
+                        ("obstacle_pressure", "pressure of obstacles [Pa]"), ("displacement", "displacement [m]")):
         found = [values for values in (values_of(grid, name) for grid in grids) if values is not None]
         if found and max(values.max() for values in found) > 0:
             return name, title, numpy.concatenate(found)
@@ -206,7 +213,7 @@ def camera(flat, direction, focus=None, radius=None):
 
 def close_up(grids, centre, extent, actors_for, obstacles_behind, path):
     """A cut through the point of highest contact pressure; returns the direction it is best seen from, or None."""
-    pressures = [values_of(grid, "contact_pressure") for grid in grids]
+    pressures = [contact_pressure_of(grid) for grid in grids]
     peaks = [values.max() if values is not None else 0 for values in pressures]
     best = int(numpy.argmax(peaks))
     if not peaks[best] > 0:

@@ -2,6 +2,7 @@
 #include "signorini/adaptivity/remeshing.h"
 
 #include "signorini/adaptivity/error_classes.h"
+#include "signorini/base/to_point.h"
 #include "signorini/discretization/simplex_field.h"
 
 #include <algorithm>
@@ -96,10 +97,8 @@ make_adapted_meshes(const ErrorEstimate &estimate, const AdaptivityParameters &a
             coarsest = coarsest_size(bodies[body].mesh, dim), smallest = smallest,
             largest = largest](const Triple &own)
     {
-      dealii::Point<dim> point;
-      for (unsigned int d = 0; d < dim; ++d)
-        point[d] = own[d];
-      const double wanted = std::clamp(field.evaluate(body, placement.place(point))[0][0], smallest, largest);
+      const double wanted =
+          std::clamp(field.evaluate(body, placement.place(to_point<dim>(own)))[0][0], smallest, largest);
       return std::min(wanted / scale, coarsest);
     };
   };

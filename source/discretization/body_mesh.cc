@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "signorini/discretization/body_mesh.h"
 
+#include "signorini/base/to_point.h"
 #include "signorini/parameters/mesh_parameters.h"
 
 #include <deal.II/grid/grid_generator.h>
@@ -14,15 +15,6 @@ namespace signorini
 {
 namespace
 {
-template <int dim>
-dealii::Point<dim> to_point(const Triple &triple)
-{
-  dealii::Point<dim> point;
-  for (unsigned int d = 0; d < dim; ++d)
-    point[d] = triple[d];
-  return point;
-}
-
 template <int dim>
 void make_box(const MeshParameters &parameters, dealii::Triangulation<dim> &mesh)
 {

@@ -2,6 +2,7 @@
 #include "signorini/discretization/scene_mesh.h"
 
 #include "signorini/base/collective_error.h"
+#include "signorini/base/to_point.h"
 #include "signorini/discretization/body_mesh.h"
 #include "signorini/discretization/placement.h"
 #include "signorini/parameters/mesh_parameters.h"
@@ -216,14 +217,7 @@ std::vector<PlacedSimplexMesh> make_and_place(const std::vector<BodyParameters> 
       continue;
     const Placement<dim> placement(bodies[body].placement);
     const auto place = [&placement](Triple &point)
-    {
-      dealii::Point<dim> own;
-      for (unsigned int d = 0; d < dim; ++d)
-        own[d] = point[d];
-      const dealii::Point<dim> placed = placement.place(own);
-      for (unsigned int d = 0; d < dim; ++d)
-        point[d] = placed[d];
-    };
+    { point = to_triple<dim>(placement.place(to_point<dim>(point))); };
     const MeshParameters &parameters = bodies[body].mesh;
     SimplexMesh mesh = size_of_body && !parameters.mesh_of_file
                            ? generate_simplex_mesh(parameters, dim, degree, size_of_body(body))

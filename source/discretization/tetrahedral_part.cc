@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "signorini/discretization/tetrahedral_part.h"
 
+#include "signorini/base/to_point.h"
 #include "signorini/discretization/scene_mesh.h"
 
 #include <deal.II/base/quadrature_lib.h>
@@ -15,15 +16,6 @@ namespace signorini
 {
 namespace
 {
-template <int dim>
-dealii::Point<dim> to_point(const Triple &triple)
-{
-  dealii::Point<dim> point;
-  for (unsigned int d = 0; d < dim; ++d)
-    point[d] = triple[d];
-  return point;
-}
-
 /// deal.II holds the faces of triangles and of tetrahedra in different lists.
 template <int dim>
 auto &face_list(dealii::SubCellData &faces)

@@ -2,6 +2,7 @@
 #include "signorini/output/displacement_error.h"
 
 #include "signorini/base/spatial_vector.h"
+#include "signorini/base/to_point.h"
 #include "signorini/parameters/expression.h"
 
 #include <deal.II/fe/fe_values.h>
@@ -26,11 +27,8 @@ public:
   dealii::Tensor<1, dim> value(const dealii::Point<dim> &x) const
   {
     dealii::Tensor<1, dim> u;
-    Triple point{};
     for (unsigned int d = 0; d < dim; ++d)
-      point[d] = x[d];
-    for (unsigned int d = 0; d < dim; ++d)
-      u[d] = components[d].value(point, t);
+      u[d] = components[d].value(to_triple<dim>(x), t);
     return u;
   }
 

@@ -2,6 +2,7 @@
 #include "signorini/scene/scene.h"
 
 #include "signorini/base/exceptions.h"
+#include "signorini/base/to_point.h"
 #include "signorini/parameters/mesh_parameters.h"
 
 #include <fmt/core.h>
@@ -63,9 +64,7 @@ template <int dim>
 double evaluate(const Expression &expression, const std::string &description, const dealii::Point<dim> &x,
                 double t)
 {
-  Triple point{};
-  for (unsigned int d = 0; d < dim; ++d)
-    point[d] = x[d];
+  const Triple point = to_triple<dim>(x);
   const double value = expression.value(point, t);
   if (!std::isfinite(value))
     throw InputError(Complaint(fmt::format("{} is {} at x = {}, y = {}, z = {}, t = {}", description,
