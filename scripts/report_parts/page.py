@@ -29,6 +29,7 @@ table { border-collapse: collapse; width: 100%; font-variant-numeric: tabular-nu
 th, td { text-align: left; padding: .35rem .8rem .35rem 0; border-bottom: 1px solid var(--line); vertical-align: top; }
 th { color: var(--soft); font-weight: 600; font-size: .85rem; }
 td.number, th.number { text-align: right; }
+td.bad { color: #a3301c; font-weight: 600; }
 td.number, td.name { white-space: nowrap; }
 tr:last-child td { border-bottom: 0; }
 pre { margin: .6rem 0 0; font: 13px/1.45 ui-monospace, "DejaVu Sans Mono", monospace; overflow-x: auto; }
@@ -53,6 +54,9 @@ ALTERNATIVES = {
     "memory": "Memory against degrees of freedom",
 }
 
+MOST_COLLISIONS = 20
+BAD = ' class="bad"'
+
 UNITS = {"effective_stiffness": " [Pa/m]", "max_penetration": " [m]", "max_pressure": " [Pa, per undeformed area]",
          "area": " [m\u00b2; m in 2-D, undeformed]", "n_pairs_max": " (points near a target, whole run\u2019s most)"}
 
@@ -64,7 +68,7 @@ def compose(run, figures, omissions):
     plots = "".join(f'<div class="card">{image(name, path)}</div>' for name, path in figures if name != "scene")
     scene = f'<div class="card">{image("scene", images["scene"])}</div>' if "scene" in images else ""
     body = [header(summary, title), key_figures(summary), scene, f'<div class="plots">{plots}</div>' if plots else "",
-            errors_table(summary), '<div class="columns">', quantities_table(summary),
+            errors_table(summary), collisions_table(summary), '<div class="columns">', quantities_table(summary),
             f"<div>{forces_table(summary)}{parts_table(summary)}</div>", "</div>",
             omissions_card(omissions), parameters_card(run.parameters), footer(summary)]
     return document(title, body)
@@ -132,6 +136,20 @@ def errors_table(summary):
     return ('<div class="card"><h2>Against the exact solution</h2><table><tr><th>quantity</th>'
             '<th class="number">computed</th><th class="number">exact</th><th class="number">relative error</th></tr>'
             f"{cells}</table></div>")
+
+
+def collisions_table(summary):
+    """Who struck whom, when, and how it ended."""
+    collisions = mapping(summary, "contact").get("collisions") or []
+    cells = "".join(
+        f'<tr><td>{text(entry.get("one"))} and {text(entry.get("other"))}</td>'
+        f'<td class="number">{significant(entry.get("begin"))}</td><td class="number">{significant(entry.get("end"))}</td>'
+        f'<td{BAD if entry.get("outcome") == "passed through" else ""}>{text(entry.get("outcome"))}</td></tr>'
+        for entry in collisions[:MOST_COLLISIONS])
+    more = len(collisions) - MOST_COLLISIONS
+    return ('<div class="card"><h2>Collisions</h2><table><tr><th>of</th><th class="number">from [s]</th>'
+            f'<th class="number">to [s]</th><th>outcome</th></tr>{cells}</table>'
+            f'{f"<p>and {more} further ones, in summary.json</p>" if more > 0 else ""}</div>') if collisions else ""
 
 
 def parts_table(summary):

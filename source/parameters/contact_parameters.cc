@@ -36,7 +36,8 @@ const NameTable<ContactParameters::Potential> &potentials()
 }
 
 /// What the volume potential does not have.
-void check_volume_potential(const SectionReader &section, const ContactParameters &contact)
+void check_volume_potential(const ParameterText &text, const SectionReader &section,
+                            const ContactParameters &contact, bool has_obstacles)
 {
   const auto refuse = [&](const std::string &what)
   {
@@ -47,6 +48,9 @@ void check_volume_potential(const SectionReader &section, const ContactParameter
     refuse("damping: its forces act on elements, not on pairs of points");
   if (contact.correction)
     refuse("correction: it knows no pressures to start from");
+  for (const char *key : {"Integration", "Quadrature points"})
+    if (!has_obstacles && text.find("Contact", key) != nullptr)
+      refuse(fmt::format("'{}': it integrates overlaps exactly", key));
   if (!contact.penalty_factor)
     refuse("choice of the penalty factor by errors: it knows no pressures to estimate them from");
 }
@@ -150,7 +154,8 @@ void declare_contact(Declarations &declarations, const DeclarationScope &scope)
   contact.add(
       "Maximum penetration", number_above(0.), "0.5", "",
       "In sizes of an element: a run in which bodies sink deeper into each other stops, as they could "
-      "pass through; set far above 1, they may. Of bodies that touch by the volume potential a quarter.");
+      "pass through; set far above 1, they may. Bodies that touch by the volume potential may sink in by a "
+      "quarter of it.");
   contact.add(
       "Allow initial overlap", true_or_false(), "false", "",
       "Start although bodies overlap by more than a tenth of a cell; the energy of the overlap is reported.");
@@ -196,7 +201,7 @@ ContactParameters read_contact(const ParameterText &text, const Declarations &in
         CorrectionParameters{correction.number("Tolerance"), correction.integer("Maximum steps")};
   }
   if (contact.potential == ContactParameters::Potential::volume)
-    check_volume_potential(section, contact);
+    check_volume_potential(text, section, contact, !obstacles.empty());
   return contact;
 }
 

@@ -281,4 +281,9 @@ MeshParameters read_mesh(const ParameterText &text, const Declarations &in_use, 
     mesh.grading = read_grading(SectionReader(text, in_use, grading, dimension), mesh, dimension);
   return mesh;
 }
+
+bool is_adaptable(const MeshParameters &mesh, bool is_in_motion)
+{
+  return mesh.cell_type != MeshParameters::CellType::tetrahedra || !(is_in_motion || mesh.mesh_of_file);
+}
 } // namespace signorini

@@ -6,6 +6,7 @@
 #include "signorini/parameters/body_parameters.h"
 #include "signorini/parameters/contact_parameters.h"
 #include "signorini/parameters/exact_solution_parameters.h"
+#include "signorini/parameters/mesh_parameters.h"
 #include "signorini/parameters/output_directory.h"
 #include "signorini/parameters/run_parameters.h"
 #include "signorini/parameters/section_reader.h"
@@ -138,19 +139,14 @@ void check_degree_of_potential(const ParameterText &text, const Parameters &para
                          .advise("set Degree = 1, or Potential = surface"));
 }
 
-/// Tetrahedra are not refined one by one: their meshes are made anew, between equilibria and from a known
-/// shape.
 void check_adaptable(const ParameterText &text, const Parameters &parameters)
 {
   if (!parameters.adaptivity)
     return;
   const bool is_explicit = std::holds_alternative<ExplicitParameters>(parameters.solver);
-  const auto stays = [is_explicit](const BodyParameters &body)
-  {
-    return body.mesh.cell_type == MeshParameters::CellType::tetrahedra &&
-           (is_explicit || body.mesh.mesh_of_file);
-  };
-  if (std::all_of(parameters.bodies.begin(), parameters.bodies.end(), stays))
+  if (std::none_of(parameters.bodies.begin(), parameters.bodies.end(),
+                   [is_explicit](const BodyParameters &body)
+                   { return is_adaptable(body.mesh, is_explicit); }))
     throw InputError(
         Complaint("'Adaptivity' finds no mesh that it could change")
             .at(text.where("Adaptivity"))

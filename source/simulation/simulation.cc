@@ -82,7 +82,8 @@ void Simulation<dim>::list_parts()
   note(surface_map != nullptr, "contact surface", "no subsection Contact");
   note(scene.n_bodies() > 1 && surface_map, "contact of bodies",
        surface_map ? "one body only" : "no subsection Contact");
-  note(volume_map != nullptr, "volume potential", "Contact/Potential is not volume");
+  note(volume_map != nullptr, "volume potential",
+       scene.n_bodies() > 1 ? "Contact/Potential is not volume" : "one body only");
   note(!scene.obstacles.empty(), "contact with obstacles", "no obstacle");
   note(correction != nullptr, "contact correction", "no subsection Contact/Correction");
   note(!forces.damped_contacts.empty(), "contact damping", "no subsection Contact/Damping");

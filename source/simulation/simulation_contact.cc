@@ -256,8 +256,8 @@ std::optional<Complaint> Simulation<dim>::find_deep_penetration(const MeasuresOf
   constexpr double share_of_volumes = 0.25;
   for (std::size_t i = 0; i < measures.size(); ++i)
   {
-    const double limit =
-        parameters.contact->max_penetration * (i < forces.volume_contacts.size() ? share_of_volumes : 1.);
+    const bool is_of_volumes = i < forces.volume_contacts.size();
+    const double limit = parameters.contact->max_penetration * (is_of_volumes ? share_of_volumes : 1.);
     const double depth = measures[i].max_penetration_over_thickness;
     if (depth <= limit)
       continue;
@@ -265,9 +265,14 @@ std::optional<Complaint> Simulation<dim>::find_deep_penetration(const MeasuresOf
     return Complaint(fmt::format("body '{}' sinks into what it touches by {:.3g} of an element at t = {:.6g}",
                                  scene.body_names[measures[i].deepest_body], depth, state.time))
         .at(format_point<dim>(measures[i].deepest_position))
-        .expected(fmt::format("at most {} of an element: deeper, it could pass through", limit))
+        .expected(
+            fmt::format("at most {} of an element, {}Contact/Maximum penetration: deeper, it could pass "
+                        "through",
+                        limit, is_of_volumes ? "with the volume potential a quarter of " : "as in "))
         .advise(is_a_leap ? "it moves farther than an element in one step: check speeds, loads and units"
-                          : "raise Contact/Penalty factor, refine, or load more slowly");
+                : is_of_volumes
+                    ? "raise Contact/Penalty factor, refine, load more slowly, or set Potential = surface"
+                    : "raise Contact/Penalty factor, refine, or load more slowly");
   }
   return {};
 }

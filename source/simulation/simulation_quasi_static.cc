@@ -91,7 +91,7 @@ void Simulation<dim>::run_quasi_static()
   progress.say("Linear solver: " + quasi_static_solver->linear_solver_name());
   const double end = solver_parameters.end_time, largest_step = end / solver_parameters.load_steps;
   const double smallest_step = largest_step * std::pow(0.5, solver_parameters.max_bisections);
-  double step = largest_step;
+  double step = largest_step, n_load_steps_done = 0.;
   estimate_error();
   record_quasi_static();
   write_fields();
@@ -113,7 +113,10 @@ void Simulation<dim>::run_quasi_static()
     }
     ++results.n_steps;
     estimate_error();
-    if (parameters.adaptivity)
+    // Halved steps make one load step of the file: so many cycles as it asks for, unless contact needs them.
+    const bool is_load_step_done = std::floor(time / largest_step + 1e-9) > n_load_steps_done;
+    n_load_steps_done = std::floor(time / largest_step + 1e-9);
+    if (parameters.adaptivity && (is_load_step_done || results.estimate.is_any_contact_unseen))
       adapt_to_load();
     record_quasi_static();
     say_equilibrium(end);

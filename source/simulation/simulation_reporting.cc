@@ -6,6 +6,7 @@
 #include "signorini/output/collisions.h"
 #include "signorini/output/exact_solution.h"
 #include "signorini/output/summary.h"
+#include "signorini/parameters/mesh_parameters.h"
 #include "signorini/physics/mass.h"
 
 #include <deal.II/base/utilities.h>
@@ -67,6 +68,10 @@ void Simulation<dim>::plan_adaptivity()
     return;
   const AdaptivityParameters &adaptivity = *parameters.adaptivity;
   const auto *quasi_static = std::get_if<QuasiStaticParameters>(&parameters.solver);
+  for (const BodyParameters &body : parameters.bodies)
+    if (!is_adaptable(body.mesh, quasi_static == nullptr))
+      progress.say(fmt::format("Adaptivity: the mesh of {} stays as it is: {}", body.name,
+                               quasi_static == nullptr ? "tetrahedra in motion" : "its shape is not known"));
   if (quasi_static == nullptr)
   {
     progress.say(
@@ -202,11 +207,28 @@ void Simulation<dim>::gather_results()
     warn(fmt::format("an adaptation of the mesh changed the energy by {:.2g} of its largest: lower "
                      "Adaptivity/Interval, so that refinement comes before contact",
                      results.energy.max_adaptation / results.energy.largest));
+  warn_of_collisions();
   constexpr double shallow = 0.1;
   if (results.max_penetration_over_thickness > shallow)
     warn(fmt::format("the largest penetration of the run, {:.3g} h, exceeds {} h: raise Contact/Penalty "
                      "factor or refine",
                      results.max_penetration_over_thickness, shallow));
+}
+
+template <int dim>
+void Simulation<dim>::warn_of_collisions()
+{
+  if (!results.has_ledger)
+    return;
+  for (const Collision &collision : find_collisions(results.history))
+    if (collision.outcome == Collision::Outcome::passed_through)
+    {
+      warn(fmt::format("{} passed through {} ({:.6g} to {:.6g} s): lower Contact/Maximum penetration, which "
+                       "stops the run before that, and raise Contact/Penalty factor or refine",
+                       name_of_collider(parameters, collision.one),
+                       name_of_collider(parameters, collision.other), collision.begin, collision.end));
+      return;
+    }
 }
 
 template <int dim>

@@ -16,6 +16,10 @@ void declare_mesh(Declarations &declarations, const DeclarationScope &scope, con
 MeshParameters read_mesh(const ParameterText &text, const Declarations &in_use, const std::string &path,
                          unsigned int dimension);
 
+/// Whether `Adaptivity` can change a mesh: tetrahedra are not refined one by one, their meshes are made anew,
+/// between equilibria and from a known shape.
+bool is_adaptable(const MeshParameters &mesh, bool is_in_motion);
+
 /// Names of the boundaries of a mesh, as Support, Load and Grading use them.
 std::vector<std::string> boundary_names(const MeshParameters &mesh, unsigned int dimension);
 

@@ -117,6 +117,8 @@ private:
   void gather_nodal_pressures();
   void gather_extremes();
   void print_results();
+  /// Of the first in which two passed through each other.
+  void warn_of_collisions();
   void print_collisions();
   /// The part of print_plan() on refinement.
   void plan_adaptivity();
