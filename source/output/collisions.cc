@@ -4,6 +4,7 @@
 #include <Eigen/Eigenvalues>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 
 namespace signorini
@@ -46,6 +47,8 @@ public:
           const HistoryRow *row_before)
       : collision{pair.first, pair.second, first.time, first.time},
         before(difference(row_before ? *row_before : first, collision, &BodyRecord::position)),
+        half_widths(to_vector(first.bodies[pair.first].half_widths) +
+                    to_vector(first.bodies[pair.second].half_widths)),
         is_from_the_start(row_before == nullptr)
   {
   }
@@ -84,7 +87,7 @@ public:
   {
     using Outcome = Collision::Outcome;
     Collision judged = collision;
-    if (has_parted && before.dot(line) * after.dot(line) < 0.)
+    if (has_parted && have_exchanged_sides())
       judged.outcome = Outcome::passed_through;
     else if (has_parted)
       judged.outcome = is_from_the_start ? Outcome::touching_from_the_start : Outcome::bounced;
@@ -92,8 +95,16 @@ public:
   }
 
 private:
+  /// Beside each other the centres may change their order along the line a little without meaning.
+  bool have_exchanged_sides() const
+  {
+    const double way = std::abs(before.dot(line) - after.dot(line));
+    return before.dot(line) * after.dot(line) < 0. && way >= 0.5 * line.cwiseAbs().dot(half_widths);
+  }
+
   Collision collision;
   Eigen::Vector3d before, after = Eigen::Vector3d::Zero(); // from the centre of `other` to that of `one`
+  Eigen::Vector3d half_widths;                             // of both together
   Eigen::Vector3d line = Eigen::Vector3d::Zero();
   Push one, other;
   bool is_from_the_start;

@@ -251,8 +251,8 @@ void Simulation<dim>::check_motion(double time_step) const
 template <int dim>
 std::optional<Complaint> Simulation<dim>::find_deep_penetration(const MeasuresOfTerms &measures) const
 {
-  // The volume potential sees no depth beyond the inscribed ball of a simplex, an eighth of an element at
-  // least.
+  // The force of the volume potential turns round at a depth of about a quarter of its simplices, which may
+  // be an eighth of an element.
   constexpr double share_of_volumes = 0.25;
   for (std::size_t i = 0; i < measures.size(); ++i)
   {

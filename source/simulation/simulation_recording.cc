@@ -6,6 +6,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <limits>
 
 namespace signorini
 {
@@ -67,16 +68,22 @@ void Simulation<dim>::record_bodies(const contact::PairForces<dim> &pair_forces)
 
   const bool is_moving = state.velocity.size() > 0;
   std::vector<double> sums(3 * dim * scene.n_bodies(), 0.);
+  std::vector<double> bounds(2 * dim * scene.n_bodies(), std::numeric_limits<double>::lowest()); // −low, high
   for (const OwnedNode<dim> &node : discretization->owned_nodes)
     for (unsigned int d = 0; d < dim; ++d)
     {
       double *sum = &sums[3 * (dim * node.body + d)];
       const double volume = nodal_volume.local_element(node.dofs[d]);
+      const double x = node.position[d] + state.displacement.local_element(node.dofs[d]);
+      double *bound = &bounds[2 * (dim * node.body + d)];
+      bound[0] = std::max(bound[0], -x);
+      bound[1] = std::max(bound[1], x);
       sum[0] += volume * node.position[d];
       sum[1] += volume * state.displacement.local_element(node.dofs[d]);
       sum[2] += is_moving ? volume * state.velocity.local_element(node.dofs[d]) : 0.;
     }
   dealii::Utilities::MPI::sum(sums, communicator, sums);
+  dealii::Utilities::MPI::max(bounds, communicator, bounds);
   for (unsigned int body = 0; body < scene.n_bodies(); ++body)
     for (unsigned int d = 0; d < dim; ++d)
     {
@@ -84,9 +91,10 @@ void Simulation<dim>::record_bodies(const contact::PairForces<dim> &pair_forces)
       records[body].displacement[d] = sum[1] / volume;
       records[body].velocity[d] = sum[2] / volume;
       records[body].position[d] = (sum[0] + sum[1]) / volume;
+      records[body].half_widths[d] = 0.5 * (bounds[2 * (dim * body + d)] + bounds[2 * (dim * body + d) + 1]);
     }
   for (const ObstacleParameters &obstacle : parameters.obstacles)
-    records.push_back({obstacle.point, {}, {}, {}});
+    records.push_back({obstacle.point, {}, {}, {}, {}});
   results.history.push_back({state.time, records, {}});
   auto &touching = results.history.back().touching;
   for (const auto &[pair, force] : pair_forces.bodies)

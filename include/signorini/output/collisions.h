@@ -29,7 +29,8 @@ struct Collision
 /// contact force on one of them and v its largest speed: what a support takes up turns nothing. They have
 /// *parted* in a row without a force in which their centres of mass move away from each other along it;
 /// touches are one collision until they have parted and then come towards each other anew. The sides of the
-/// centres are compared between the row before the first touch and the one after the last. What lies between
+/// centres are compared between the row before the first touch and the one after the last; exchanging them
+/// takes a way of at least a quarter of what the two measure along the line. What lies between
 /// two rows goes unseen.
 std::vector<Collision> find_collisions(const std::vector<HistoryRow> &history);
 

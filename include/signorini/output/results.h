@@ -25,6 +25,7 @@ struct BodyRecord
   Triple displacement{};  ///< of its centre of mass [m]
   Triple velocity{};      ///< of its centre of mass; zero in quasi-static runs [m/s]
   Triple contact_force{}; ///< on a body, with that of the contact damping [N; N/m in 2-D]
+  Triple half_widths{};   ///< of its box along the axes; zero of an obstacle [m]
 };
 
 /// Contact force on a body from another one or an obstacle, with that of the contact damping.

@@ -75,7 +75,9 @@ void VolumeContactForce<dim>::add_row_sum_bounds(Vector &stiffness, Vector &) co
 template <int dim>
 contact::ContactMeasures<dim> VolumeContactForce<dim>::measure() const
 {
-  return this->sum(potential.measure(), map->volume().origin);
+  std::vector<double> shares = potential.sunk_shares();
+  dealii::Utilities::MPI::sum(shares, this->communicator, shares);
+  return this->sum(potential.measure(shares), map->volume().origin);
 }
 
 template <int dim>

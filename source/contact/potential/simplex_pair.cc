@@ -255,6 +255,9 @@ auto SimplexPair<dim>::evaluate() const -> std::optional<State>
 
   for (unsigned int owner = 0; owner < 2; ++owner)
   {
+    // The coordinates of one simplex sum to 1.
+    state.shares[owner] =
+        integrate_coordinates(overlap, owner).template segment<dim + 1>(owner * (dim + 1)).sum();
     Side<dim> side(*this, owner);
     side.for_each_sector(overlap,
                          [&](unsigned int m, const ConvexPolytope<dim> &sector)

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <stdexcept>
 
@@ -227,7 +228,20 @@ SpatialVector<dim> VolumePotential<dim>::force_on_first(const State &state)
 }
 
 template <int dim>
-ContactMeasures<dim> VolumePotential<dim>::measure() const
+std::vector<double> VolumePotential<dim>::sunk_shares() const
+{
+  std::vector<double> shares(volume.simplices.size(), 0.);
+  for (const auto &[pair, state] : overlaps)
+  {
+    const auto &[first, second] = search.pairs()[pair];
+    shares[first] += state.shares[0];
+    shares[second] += state.shares[1];
+  }
+  return shares;
+}
+
+template <int dim>
+ContactMeasures<dim> VolumePotential<dim>::measure(const std::vector<double> &all_sunk_shares) const
 {
   ContactMeasures<dim> measures;
   measures.resultants.assign(volume.n_bodies, SpatialVector<dim>::Zero());
@@ -250,9 +264,15 @@ ContactMeasures<dim> VolumePotential<dim>::measure() const
     measures.resultants[simplex(pair, 1).body] -= force_on_first(state);
     for (unsigned int side = 0; side < 2; ++side)
     {
-      measures.max_penetration = std::max(measures.max_penetration, state.depths[side]);
+      const auto &[first, second] = search.pairs()[pair];
+      const double sunk_share = std::min(1., all_sunk_shares[side == 0 ? first : second]);
+      const double sunk_depth = simplex(pair, side).height * (1. - std::pow(1. - sunk_share, 1. / dim));
+      constexpr double slightly_less =
+          1. - 1e-9; // of two equal depths that of a corner counts, which has a place
+      const double depth = std::max(state.depths[side], slightly_less * sunk_depth);
+      measures.max_penetration = std::max(measures.max_penetration, depth);
       measures.max_pressure = std::max(measures.max_pressure, 2. * state.largest_potentials[side]);
-      const double relative_depth = state.depths[side] / simplex(pair, side).layer_thickness;
+      const double relative_depth = depth / simplex(pair, side).layer_thickness;
       if (relative_depth > measures.max_penetration_over_thickness)
       {
         measures.max_penetration_over_thickness = relative_depth;

@@ -86,6 +86,20 @@ TYPED_TEST(VolumePotentialTest, DeepestIsThePointInTheThinnerElement)
   }
 }
 
+/// Elements that sink into others are seen to their middle, deeper than their force turns round.
+TYPED_TEST(VolumePotentialTest, DepthsAreSeenUntilElementsAreSunk)
+{
+  constexpr int dim = TypeParam::value;
+  for (const Cells cells : {Cells::simplices, Cells::split})
+    for (const double overlap : {.02, .04, .1, .3, .6})
+    {
+      const auto volume = make_slabs<dim>(cells, overlap);
+      const auto measures = evaluate<dim>(volume, volume.reference_positions).measure();
+      EXPECT_GE(measures.max_penetration_over_thickness, .999 * std::min(3. * overlap, .5));
+      EXPECT_LE(measures.max_penetration, overlap * (1. + 1e-9));
+    }
+}
+
 /// Laid exactly upon each other: nothing acts, but the tangent holds them with k_A.
 TYPED_TEST(VolumePotentialTest, TouchingSlabsHoldEachOther)
 {

@@ -145,6 +145,27 @@ TEST(Collisions, SlidingOffAnEdgeIsNotPassingThrough)
   EXPECT_EQ(collisions[0].outcome, Outcome::bounced);
 }
 
+TEST(Collisions, HittingSideBySideOnAFloorIsNotPassingThrough)
+{
+  // The floor pushes harder than the bodies do, and one of them lands from a little above the other.
+  std::vector<HistoryRow> history(3);
+  const std::array<double, 3> distances{-2.1, -2., -2.1}, heights{.1, 0., -.1}, velocities{1., 0., -1.};
+  for (unsigned int i = 0; i < history.size(); ++i)
+  {
+    history[i].time = i;
+    history[i].bodies.resize(2);
+    history[i].bodies[0].position = {distances[i], 0., heights[i]};
+    history[i].bodies[0].velocity = {velocities[i], 0., -2.};
+    for (BodyRecord &body : history[i].bodies)
+      body.half_widths = {1., 1., 1.};
+  }
+  history[1].touching.emplace(0, 1);
+  history[1].bodies[0].contact_force = {-1., 0., 100.};
+  const std::vector<Collision> collisions = find_collisions(history);
+  ASSERT_EQ(collisions.size(), 1u);
+  EXPECT_EQ(collisions[0].outcome, Outcome::bounced);
+}
+
 TEST(Collisions, SeveralComeInTheOrderOfTheirEnds)
 {
   std::vector<HistoryRow> history(4);

@@ -44,6 +44,7 @@ struct SimplexPair
     SpatialVector<dim> area = SpatialVector<dim>::Zero(); ///< ∫ n dS over ∂B∩A [m²; m in 2-D]
     std::array<bool, n_vertices>
         is_face_in_contact{};             ///< of the face opposite: whether a part is within the other
+    std::array<double, 2> shares{0., 0.}; ///< of the volumes of A, of B that lie in the other
     std::array<double, 2> depths{0., 0.}; ///< the largest below the nearest face of A, of B [m]
     std::array<double, 2> largest_potentials{0., 0.};    ///< max φ_A, max φ_B [Pa]
     std::array<SpatialVector<dim>, 2> deepest_positions; ///< where these depths are

@@ -82,11 +82,16 @@ public:
   /// M⁻¹ ∂²W/∂x∂x is at most max_a s_a/m_a (Gershgorin, block by block).
   void add_row_sum_bounds(std::vector<double> &stiffness) const;
 
-  /// Of a pair, the depth is that of the corners of its overlap below the nearest face, inner ones included,
-  /// of either simplex, over the h of that one: it saturates before H/dim, deeper than which no point of a
-  /// simplex lies. The pressure is 2 max φ, k_A d at flat layers; the area that of the second body's deformed
-  /// surface in the first one, inner faces cancelling; the deepest body the one whose point lies that deep.
-  ContactMeasures<dim> measure() const;
+  /// The share of its volume that each simplex has in others, by the pairs of this rank, [simplex].
+  std::vector<double> sunk_shares() const;
+
+  /// The depth of a simplex with the share s in others is H (1 − (1 − s)^{1/dim}), as that of a flat layer
+  /// pressed in from its outer face, or that of the corners of an overlap below the nearest face, inner ones
+  /// included, if more; it is taken over the h of the simplex. The pressure is 2 max φ, k_A d at flat layers;
+  /// the area that of the second body's deformed surface in the first one, inner faces cancelling; the
+  /// deepest body the other one. `all_sunk_shares`: those of all ranks.
+  ContactMeasures<dim> measure(const std::vector<double> &all_sunk_shares) const;
+  ContactMeasures<dim> measure() const { return measure(sunk_shares()); }
 
   /// Resultants by pair of bodies.
   PairForces<dim> pair_forces() const;
