@@ -67,10 +67,23 @@ InputError::InputError(const std::string &what) : InputError(Complaint(what)) {}
 FileError::FileError(const Complaint &report) : ProgramError(report, 3) {}
 FileError::FileError(const std::string &what) : FileError(Complaint(what)) {}
 
+namespace
+{
+bool is_same_letter(const char a, const char b)
+{
+  return std::tolower(static_cast<unsigned char>(a)) == std::tolower(static_cast<unsigned char>(b));
+}
+
+/// At the beginning of both.
+std::size_t count_common_letters(const std::string &first, const std::string &second)
+{
+  const auto end = std::mismatch(first.begin(), first.end(), second.begin(), second.end(), is_same_letter);
+  return end.first - first.begin();
+}
+} // namespace
+
 unsigned int edit_distance(const std::string &first, const std::string &second)
 {
-  const auto same = [](const char a, const char b)
-  { return std::tolower(static_cast<unsigned char>(a)) == std::tolower(static_cast<unsigned char>(b)); };
   const std::size_t n_columns = second.size() + 1;
   std::vector<unsigned int> before(n_columns), above(n_columns), row(n_columns);
   for (std::size_t j = 0; j < n_columns; ++j)
@@ -82,9 +95,10 @@ unsigned int edit_distance(const std::string &first, const std::string &second)
     row[0] = static_cast<unsigned int>(i);
     for (std::size_t j = 1; j < n_columns; ++j)
     {
-      const unsigned int replacement = same(first[i - 1], second[j - 1]) ? 0 : 1;
+      const unsigned int replacement = is_same_letter(first[i - 1], second[j - 1]) ? 0 : 1;
       row[j] = std::min({above[j] + 1, row[j - 1] + 1, above[j - 1] + replacement});
-      if (i > 1 && j > 1 && same(first[i - 1], second[j - 2]) && same(first[i - 2], second[j - 1]))
+      if (i > 1 && j > 1 && is_same_letter(first[i - 1], second[j - 2]) &&
+          is_same_letter(first[i - 2], second[j - 1]))
         row[j] = std::min(row[j], before[j - 2] + 1);
     }
   }
@@ -98,7 +112,8 @@ std::string nearest_name(const std::string &name, const std::vector<std::string>
   for (const std::string &candidate : candidates)
   {
     const unsigned int distance = edit_distance(name, candidate);
-    const bool related = 3 * distance <= 2 * std::max(name.size(), candidate.size());
+    const bool related = 3 * distance <= 2 * std::max(name.size(), candidate.size()) ||
+                         count_common_letters(name, candidate) >= 3;
     if (related && (nearest.empty() || distance < smallest))
     {
       nearest = candidate;

@@ -217,6 +217,8 @@ void AbaqusReader::open_elements()
 void AbaqusReader::take_data(const std::vector<std::string> &fields)
 {
   const std::string &keyword = head.keyword;
+  if (keyword.empty())
+    refuse("this is no Abaqus file", "text before the first keyword", "correct the ending of its name");
   if (keyword == "*NODE")
     take_node(fields);
   else if (keyword == "*ELEMENT")
@@ -236,6 +238,9 @@ void AbaqusReader::take_node(const std::vector<std::string> &fields)
 {
   Triple node{};
   const std::size_t number = label(fields.front(), "a node");
+  if (fields.size() == 3 && mesh.dimension == 3)
+    refuse("a node has two coordinates, the scene has Dimension = 3", fmt::format("node {}", number),
+           "set Dimension = 2 for a plane mesh, or correct the line; the file may be cut off");
   if (fields.size() < mesh.dimension + 1 || fields.size() > 4)
     refuse("a node needs its number and its coordinates", fmt::format("{} fields", fields.size()),
            "correct the line; the file may be cut off");
@@ -380,7 +385,8 @@ void AbaqusReader::make_boundaries()
             std::copy_n(elements[element].nodes.begin(), mesh.dimension, vertices.begin());
             boundary.faces.push_back(vertices);
           }
-        mesh.boundaries.push_back(boundary);
+        if (!boundary.faces.empty())
+          mesh.boundaries.push_back(boundary);
       }
   for (const Set &set : node_sets)
     mesh.boundaries.push_back({set.name, {}, {set.members.begin(), set.members.end()}, false});

@@ -31,10 +31,9 @@ std::string read_content(const std::string &path)
   const std::unique_ptr<gzFile_s, int (*)(gzFile)> file(is_file ? gzopen(path.c_str(), "rb") : nullptr,
                                                         gzclose);
   if (!file)
-    throw FileError(
-        Complaint("the mesh file cannot be read")
-            .at(path)
-            .advise("give the name of an existing file; it is looked for beside the parameter file"));
+    throw FileError(Complaint("the mesh file cannot be read")
+                        .at(path)
+                        .advise("give a file, not a folder, that may be read"));
   std::string content;
   std::array<char, 1 << 16> buffer;
   int n_read = 0;

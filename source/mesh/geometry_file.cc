@@ -171,11 +171,15 @@ void check_regions(const std::string &path, const unsigned int dimension,
   FileMesh shape;
   shape.file = path;
   std::vector<std::pair<int, int>> groups;
-  gmsh::model::getPhysicalGroups(groups, static_cast<int>(dimension));
-  for (const auto &group : groups)
+  gmsh::model::getPhysicalGroups(groups);
+  for (const auto &[dim, tag] : groups)
   {
-    shape.regions.emplace_back();
-    gmsh::model::getPhysicalName(group.first, group.second, shape.regions.back().name);
+    std::string name;
+    gmsh::model::getPhysicalName(dim, tag, name);
+    if (dim == static_cast<int>(dimension))
+      shape.regions.push_back({name, {}});
+    else
+      shape.boundaries.push_back({name, {}, {}});
   }
   choose_regions(shape, regions);
 }

@@ -275,12 +275,18 @@ std::vector<FileMesh::Region> choose_regions(const FileMesh &mesh, const std::ve
   {
     const auto found = std::find(names.begin(), names.end(), name);
     if (found == names.end())
-      throw InputError(Complaint("the mesh file has no such region")
+    {
+      const bool is_boundary =
+          std::any_of(mesh.boundaries.begin(), mesh.boundaries.end(),
+                      [&name](const FileMesh::Boundary &boundary) { return boundary.name == name; });
+      throw InputError(Complaint(is_boundary ? "the file has a boundary of this name, but no such region"
+                                             : "the mesh file has no such region")
                            .at(mesh.file)
                            .found(name)
                            .expected(join_names(mesh.regions))
                            .did_you_mean(nearest_name(name, names))
                            .advise("correct 'Regions', or leave it out to take all cells"));
+    }
     regions.push_back(mesh.regions[found - names.begin()]);
   }
   return regions;

@@ -10,6 +10,14 @@
 
 namespace signorini
 {
+namespace
+{
+FileMesh read_unchecked(const std::string &path, const unsigned int dimension)
+{
+  return ending_of(path) == ".inp" ? read_abaqus_file(path, dimension) : read_gmsh_file(path, dimension);
+}
+} // namespace
+
 std::vector<std::string> mesh_file_endings()
 {
   return {".msh", ".vtk", ".inp"};
@@ -24,8 +32,15 @@ bool is_mesh_file(const std::string &path)
 SimplexMesh read_mesh_file(const std::string &path, const unsigned int dimension,
                            const std::vector<std::string> &regions)
 {
-  return make_simplex_mesh(ending_of(path) == ".inp" ? read_abaqus_file(path, dimension)
-                                                     : read_gmsh_file(path, dimension),
-                           regions);
+  return make_simplex_mesh(read_unchecked(path, dimension), regions);
+}
+
+std::size_t count_nodes_in_set(const std::string &path, const unsigned int dimension, const std::string &name)
+{
+  std::size_t n_nodes = 0;
+  for (const FileMesh::Boundary &boundary : read_unchecked(path, dimension).boundaries)
+    if (boundary.name == name)
+      n_nodes += boundary.nodes.size();
+  return n_nodes;
 }
 } // namespace signorini

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "signorini/parameters/body_parameters.h"
 
+#include "signorini/mesh/read_mesh_file.h"
 #include "signorini/parameters/mesh_parameters.h"
 #include "signorini/parameters/section_reader.h"
 #include "signorini/parameters/strings.h"
@@ -140,14 +141,22 @@ std::string read_boundary(const SectionReader &section, const std::string &prefi
 {
   const std::string boundary = ParameterSubsection{section.path(), "", 0}.name().substr(prefix.size());
   const std::vector<std::string> names = boundary_names(body.mesh, dimension);
-  if (std::find(names.begin(), names.end(), boundary) == names.end())
-    throw InputError(
-        section.complain(fmt::format("the mesh of body '{}' has no boundary '{}'", body.name, boundary))
-            .found(section.path())
-            .expected("one of " + join(names, ", "))
-            .did_you_mean(nearest_name(boundary, names))
-            .advise("use a boundary of this shape"));
-  return boundary;
+  if (std::find(names.begin(), names.end(), boundary) != names.end())
+    return boundary;
+  const std::size_t n_nodes =
+      body.mesh.mesh_of_file ? count_nodes_in_set(body.mesh.file, dimension, boundary) : 0;
+  const std::string reason =
+      n_nodes > 0 ? fmt::format(": the set of {} nodes of this name makes none", n_nodes) : "";
+  throw InputError(
+      section
+          .complain(fmt::format("the mesh of body '{}' has no boundary '{}'{}", body.name, boundary, reason))
+          .found(section.path())
+          .expected("one of " + join(names, ", "))
+          .did_you_mean(n_nodes > 0 ? "" : nearest_name(boundary, names))
+          .advise(n_nodes > 0
+                      ? "give the set all corners of its faces: it is a boundary if it holds whole outer "
+                        "faces, but not all nodes, and none of another boundary"
+                      : "use a boundary of this shape"));
 }
 
 SupportParameters read_support(const SectionReader &section, const std::string &boundary,

@@ -2,6 +2,7 @@
 #include "signorini/parameters/declarations.h"
 
 #include "signorini/base/exceptions.h"
+#include "signorini/mesh/read_mesh_file.h"
 #include "signorini/parameters/strings.h"
 
 #include <fmt/format.h>
@@ -196,12 +197,20 @@ void check_presence(const ParameterText &text, const Declarations &in_use)
 {
   for (const ParameterEntry &entry : text.entries)
     if (in_use.find(entry.path, entry.key) == nullptr)
+    {
+      const bool has_mesh_of_file =
+          text.value(entry.path, "Shape") == "file" && is_mesh_file(text.value(entry.path, "File"));
       throw InputError(
-          Complaint(fmt::format("'{}' contradicts {}, which has no such entry",
-                                join_path(entry.path, entry.key), deciding_choice(text, in_use, entry.path)))
+          Complaint(fmt::format("'{}' contradicts {}, which has no such entry{}",
+                                join_path(entry.path, entry.key), deciding_choice(text, in_use, entry.path),
+                                has_mesh_of_file ? ": a mesh from a file is taken as it is" : ""))
               .at(entry.where())
               .found(entry.value)
-              .advise("remove one of the two"));
+              .advise(has_mesh_of_file
+                          ? fmt::format("remove '{}', and make the mesh as is needed where it was made",
+                                        entry.key)
+                          : "remove one of the two"));
+    }
   for (const Declaration &declaration : in_use.entries)
     check_required(text, declaration);
 }

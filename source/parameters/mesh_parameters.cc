@@ -161,22 +161,48 @@ std::string find_path(const ParameterText &text, const std::string &path)
   return (parameter_file.parent_path() / entry.value).string();
 }
 
+std::vector<std::string> read_regions(const SectionReader &section)
+{
+  const std::vector<std::string> names = split(section.value("Regions"), ',');
+  for (auto name = names.begin(); name != names.end(); ++name)
+    if (std::find(names.begin(), name, *name) != name)
+      throw InputError(section.complain("Regions", fmt::format("'{}' stands in the list twice", *name))
+                           .advise("remove one of the two"));
+  return names;
+}
+
 void read_file(const ParameterText &text, const SectionReader &section, const unsigned int dimension,
                MeshParameters &mesh)
 {
   mesh.file = find_path(text, section.path());
-  mesh.regions = split(section.value("Regions"), ',');
-  if (is_mesh_file(mesh.file))
-    mesh.mesh_of_file =
-        std::make_shared<const SimplexMesh>(read_mesh_file(mesh.file, dimension, mesh.regions));
-  else if (is_geometry_file(mesh.file))
-    mesh.surface_of_file =
-        std::make_shared<const SimplexMesh>(read_geometry_file(mesh.file, dimension, mesh.regions));
-  else
+  mesh.regions = read_regions(section);
+  if (!is_mesh_file(mesh.file) && !is_geometry_file(mesh.file))
     throw InputError(section.complain("File", "the ending of the name tells no format that is read")
                          .expected(join(mesh_file_endings(), ", ") + " (meshes), " +
                                    join(geometry_file_endings(), ", ") + " (shapes)")
                          .advise("convert the file, or correct the ending of its name"));
+  std::error_code ignored;
+  if (!std::filesystem::exists(mesh.file, ignored))
+    throw FileError(section.complain("File", fmt::format("the file '{}' does not exist", mesh.file))
+                        .advise("correct the name; it is looked for beside the parameter file"));
+  if (is_mesh_file(mesh.file))
+    mesh.mesh_of_file =
+        std::make_shared<const SimplexMesh>(read_mesh_file(mesh.file, dimension, mesh.regions));
+  else
+    mesh.surface_of_file =
+        std::make_shared<const SimplexMesh>(read_geometry_file(mesh.file, dimension, mesh.regions));
+}
+
+double read_element_size(const SectionReader &section, const MeshParameters &mesh,
+                         const unsigned int dimension)
+{
+  const double size = section.number("Element size"), largest = largest_extent(mesh, dimension);
+  if (size > largest)
+    throw InputError(
+        section.complain("Element size", "the elements are larger than the shape")
+            .expected(fmt::format("> 0 and ≤ {:.6g} m, the largest extent of the shape", largest))
+            .advise("lower 'Element size', or correct the dimensions of the shape; all are in m"));
+  return size;
 }
 
 MeshParameters::CellType read_cell_type(const SectionReader &section, const MeshParameters::Shape shape,
@@ -275,7 +301,7 @@ MeshParameters read_mesh(const ParameterText &text, const Declarations &in_use, 
                          .complain("a box of tetrahedra with 'Cells' cannot be graded")
                          .advise("give 'Element size' instead of 'Cells'"));
   if (mesh.cell_type == MeshParameters::CellType::tetrahedra && !is_cut_box)
-    mesh.element_size = section.number("Element size");
+    mesh.element_size = read_element_size(section, mesh, dimension);
   mesh.refinements = section.integer("Refinements");
   if (text.find_subsection(grading) != nullptr)
     mesh.grading = read_grading(SectionReader(text, in_use, grading, dimension), mesh, dimension);

@@ -2,6 +2,7 @@
 #include "signorini/parameters/mesh_parameters.h"
 
 #include <algorithm>
+#include <limits>
 #include <optional>
 
 namespace signorini
@@ -131,5 +132,22 @@ std::vector<Triple> boundary_points(const MeshParameters &mesh, const unsigned i
                                 { return point[plane->first] != plane->second; }),
                  points.end());
   return points;
+}
+
+double largest_extent(const MeshParameters &mesh, const unsigned int dimension)
+{
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  Triple low{infinity, infinity, infinity}, high{-infinity, -infinity, -infinity};
+  for (const std::string &boundary : boundary_names(mesh, dimension))
+    for (const Triple &point : boundary_points(mesh, dimension, boundary))
+      for (unsigned int c = 0; c < dimension; ++c)
+      {
+        low[c] = std::min(low[c], point[c]);
+        high[c] = std::max(high[c], point[c]);
+      }
+  double largest = 0.;
+  for (unsigned int c = 0; c < dimension; ++c)
+    largest = std::max(largest, high[c] - low[c]);
+  return largest;
 }
 } // namespace signorini

@@ -3,6 +3,7 @@
 #include "signorini/simulation/simulation.h"
 
 #include "signorini/base/exceptions.h"
+#include "signorini/mesh/find_pieces.h"
 #include "signorini/output/collisions.h"
 #include "signorini/output/exact_solution.h"
 #include "signorini/output/summary.h"
@@ -19,6 +20,24 @@
 
 namespace signorini
 {
+namespace
+{
+/// Empty if the mesh of the body is from no mesh file, or hangs together.
+std::string describe_pieces(const BodyParameters &body)
+{
+  if (!body.mesh.mesh_of_file)
+    return "";
+  const std::vector<MeshPiece> pieces = find_pieces(*body.mesh.mesh_of_file);
+  if (pieces.size() == 1)
+    return "";
+  return fmt::format("the mesh of body '{}' is in {} pieces that have no node in common, the largest of {} "
+                     "cells, the smallest of {} near ({:.6g}) of the file: in a quasi-static run each needs "
+                     "supports or contact of its own",
+                     body.name, pieces.size(), pieces.front().n_cells, pieces.back().n_cells,
+                     fmt::join(pieces.back().place, ", "));
+}
+} // namespace
+
 template <int dim>
 void Simulation<dim>::print_plan()
 {
@@ -58,6 +77,9 @@ void Simulation<dim>::print_plan()
                        n_steps));
   }
   plan_adaptivity();
+  for (const BodyParameters &body : parameters.bodies)
+    if (const std::string pieces = describe_pieces(body); !pieces.empty())
+      warn(pieces);
   progress.say(fmt::format("Memory after set-up: {:.0f} MB on all ranks", memory_mb()));
 }
 

@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Tests of what runs do to their output directory, and of runs that are stopped: test_directory.py PROGRAM."""
+import pathlib
 import signal
 import subprocess
 import time
@@ -71,6 +72,16 @@ class DirectoryTest(ProgramTest):
         done = self.run_program(BLOCKS, "--set", "Contact/Penalty factor=0.05", "--quiet")
         self.assertEqual((done.returncode, done.stdout, done.stderr), (0, "", ""))
         self.assertIn("raise Contact/Penalty factor or refine", self.summary()["warnings"][0])
+
+    def test_a_mesh_in_pieces_is_warned_of(self):
+        mesh = pathlib.Path(self.folder.name) / "pieces.inp"
+        mesh.write_text("*NODE\n1, 0, 0, 0\n2, 1, 0, 0\n3, 0, 1, 0\n4, 0, 0, 1\n"
+                        "5, 4, 0, 0\n6, 5, 0, 0\n7, 4, 1, 0\n8, 4, 0, 1\n"
+                        "*ELEMENT, TYPE=C3D4\n1, 1, 2, 3, 4\n2, 5, 6, 7, 8\n", encoding="utf-8")
+        done = self.run_program(ROOT / "tests/rejects/mesh_file_missing.prm", "--set", f"Body part/Mesh/File={mesh}")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("the mesh of body 'part' is in 2 pieces", self.summary()["warnings"][0])
+        self.assertIn("near (4.25, 0.25, 0.25)", self.summary()["warnings"][0])
 
 
 if __name__ == "__main__":

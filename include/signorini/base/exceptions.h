@@ -68,6 +68,7 @@ public:
 /// upper and lower case taken as equal.
 unsigned int edit_distance(const std::string &first, const std::string &second);
 
-/// The candidate with the smallest edit distance to `name`; empty if none shares even a third with it.
+/// The candidate with the smallest edit distance to `name`; empty if none shares even a third with it, or its
+/// first three letters.
 std::string nearest_name(const std::string &name, const std::vector<std::string> &candidates);
 } // namespace signorini

@@ -22,4 +22,8 @@ bool is_mesh_file(const std::string &path);
 /// file cannot be read, InputError if it holds anything but a sound mesh of one body.
 SimplexMesh read_mesh_file(const std::string &path, unsigned int dimension,
                            const std::vector<std::string> &regions = {});
+
+/// Nodes in the set of this name, 0 if the file has none: what makes no boundary is left out of the mesh.
+/// Throws as read_mesh_file().
+std::size_t count_nodes_in_set(const std::string &path, unsigned int dimension, const std::string &name);
 } // namespace signorini

@@ -26,4 +26,7 @@ std::vector<std::string> boundary_names(const MeshParameters &mesh, unsigned int
 /// Points that bound one boundary of a mesh, before placement.
 std::vector<Triple> boundary_points(const MeshParameters &mesh, unsigned int dimension,
                                     const std::string &boundary);
+
+/// Longest side of the box around the shape, before placement [m].
+double largest_extent(const MeshParameters &mesh, unsigned int dimension);
 } // namespace signorini

@@ -21,12 +21,14 @@ TEST(NearestName, FindsTheMostSimilar)
 {
   EXPECT_EQ(nearest_name("Densty", {"Degree", "Density", "Model"}), "Density");
   EXPECT_EQ(nearest_name("botom", {"top", "bottom", "left"}), "bottom");
+  EXPECT_EQ(nearest_name("Tets", {"hexahedra", "tetrahedra"}), "tetrahedra");
 }
 
 TEST(NearestName, IsEmptyWithoutASimilarOne)
 {
   EXPECT_EQ(nearest_name("xyz", {"Density", "Model"}), "");
   EXPECT_EQ(nearest_name("anything", {}), "");
+  EXPECT_EQ(nearest_name("te", {"hexahedra", "tetrahedra"}), "");
 }
 
 TEST(Complaint, LeavesOutEmptyParts)
