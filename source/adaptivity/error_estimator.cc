@@ -76,16 +76,13 @@ template <int dim>
 double ErrorEstimator<dim>::squared_error(unsigned int cell, const std::vector<Eigen::Matrix3d> &nodal,
                                           const Eigen::Matrix3d *point_stresses) const
 {
-  const CellTable<dim> &cells = discretization->cells;
-  const MaterialParameters &material = scene->materials[cells.bodies[cell]];
+  const MaterialParameters &material = scene->materials[discretization->cells.bodies[cell]];
   const double nu = material.poissons_ratio;
   double sum = 0.;
-  for (unsigned int q = 0; q < cells.n_points(cell); ++q)
+  for (const auto &[difference, volume] : recovery.differences(cell, nodal, point_stresses))
   {
-    const Eigen::Matrix3d difference = recovery.interpolate(cell, nodal, q) - point_stresses[q];
     const double trace = difference.trace();
-    sum += cells.cell_weights(cell)[q] / material.youngs_modulus *
-           ((1. + nu) * difference.squaredNorm() - nu * trace * trace);
+    sum += volume / material.youngs_modulus * ((1. + nu) * difference.squaredNorm() - nu * trace * trace);
   }
   return sum;
 }

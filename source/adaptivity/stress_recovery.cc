@@ -71,12 +71,37 @@ typename StressRecovery<dim>::CellFit StressRecovery<dim>::fit_cells(const MeshP
   for (unsigned int a = 0; a < nodes.size(); ++a)
     at_nodes.row(a) = monomials(nodes[a], element.degree, is_simplex);
   const Eigen::MatrixXd moments = at_points.transpose() * weights.asDiagonal();
-  CellFit fit{part.first_cell, at_nodes * (moments * at_points).inverse() * moments,
-              Eigen::MatrixXd(nodes.size(), points.size())};
-  for (unsigned int a = 0; a < nodes.size(); ++a)
-    for (unsigned int q = 0; q < points.size(); ++q)
-      fit.shape_values(a, q) = element.shape_value(a, points.point(q));
+  const Eigen::MatrixXd coefficients = (moments * at_points).inverse() * moments;
+  CellFit fit{part.first_cell, at_nodes * coefficients, {}, {}, {}};
+  sample_cells(part, coefficients, fit);
   return fit;
+}
+
+/// The square of the difference is of twice the element's degree. On hexahedra the quadrature points
+/// integrate that; those of simplices do not, but determine the stress, which is the fitted polynomial there.
+template <int dim>
+void StressRecovery<dim>::sample_cells(const MeshPart<dim> &part, const Eigen::MatrixXd &coefficients,
+                                       CellFit &fit)
+{
+  const dealii::FiniteElement<dim> &element = part.element.base_element(0);
+  const bool is_simplex = part.element.reference_cell().is_simplex();
+  const dealii::Quadrature<dim> samples = is_simplex ? part.gauss_rule(element.degree + 1) : part.cell_rule();
+  const unsigned int n_points = fit.fit.cols();
+  fit.shape_values.resize(samples.size(), element.n_dofs_per_cell());
+  fit.point_values.setIdentity(samples.size(), n_points);
+  fit.volume_shares.setIdentity(samples.size(), n_points);
+  const std::vector<double> &weights = samples.get_weights();
+  const double volume = std::accumulate(weights.begin(), weights.end(), 0.);
+  for (unsigned int s = 0; s < samples.size(); ++s)
+  {
+    for (unsigned int a = 0; a < element.n_dofs_per_cell(); ++a)
+      fit.shape_values(s, a) = element.shape_value(a, samples.point(s));
+    if (!is_simplex)
+      continue;
+    fit.point_values.row(s) =
+        monomials(samples.point(s), element.degree, is_simplex).transpose() * coefficients;
+    fit.volume_shares.row(s).setConstant(weights[s] / volume);
+  }
 }
 
 template <int dim>
@@ -146,14 +171,24 @@ std::vector<Eigen::Matrix3d> StressRecovery<dim>::nodal_stresses(unsigned int ce
 }
 
 template <int dim>
-Eigen::Matrix3d StressRecovery<dim>::interpolate(unsigned int cell, const std::vector<Eigen::Matrix3d> &nodal,
-                                                 unsigned int point) const
+std::vector<typename StressRecovery<dim>::Sample>
+StressRecovery<dim>::differences(unsigned int cell, const std::vector<Eigen::Matrix3d> &nodal,
+                                 const Eigen::Matrix3d *point_stresses) const
 {
-  const Eigen::MatrixXd &shape_values = fit_of(cell).shape_values;
-  Eigen::Matrix3d stress = Eigen::Matrix3d::Zero();
-  for (unsigned int a = 0; a < nodal.size(); ++a)
-    stress += shape_values(a, point) * nodal[a];
-  return stress;
+  const CellFit &fit = fit_of(cell);
+  const double *volumes = discretization->cells.cell_weights(cell);
+  std::vector<Sample> samples(fit.shape_values.rows(), {Eigen::Matrix3d::Zero(), 0.});
+  for (unsigned int s = 0; s < samples.size(); ++s)
+  {
+    for (unsigned int a = 0; a < nodal.size(); ++a)
+      samples[s].stress += fit.shape_values(s, a) * nodal[a];
+    for (unsigned int q = 0; q < fit.point_values.cols(); ++q)
+    {
+      samples[s].stress -= fit.point_values(s, q) * point_stresses[q];
+      samples[s].volume += fit.volume_shares(s, q) * volumes[q];
+    }
+  }
+  return samples;
 }
 
 template class StressRecovery<2>;

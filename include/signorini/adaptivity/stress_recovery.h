@@ -27,20 +27,31 @@ public:
   /// Recovered stresses at the nodes of an own cell, [node] [Pa].
   std::vector<Eigen::Matrix3d> nodal_stresses(unsigned int cell) const;
 
-  /// The interpolation of nodal values at a quadrature point of an own cell.
-  Eigen::Matrix3d interpolate(unsigned int cell, const std::vector<Eigen::Matrix3d> &nodal,
-                              unsigned int point) const;
+  /// A stress of a cell and the volume that it stands for [Pa, m³].
+  struct Sample
+  {
+    Eigen::Matrix3d stress;
+    double volume;
+  };
+
+  /// The interpolation of nodal values less the stress of the element, given at its quadrature points, in an
+  /// own cell: samples that integrate its square.
+  std::vector<Sample> differences(unsigned int cell, const std::vector<Eigen::Matrix3d> &nodal,
+                                  const Eigen::Matrix3d *point_stresses) const;
 
 private:
   /// What all cells of one kind have in common.
   struct CellFit
   {
     unsigned int first_cell;
-    Eigen::MatrixXd fit;          ///< [node][point]: values at the nodes of the fitted polynomial
-    Eigen::MatrixXd shape_values; ///< [node][point]
+    Eigen::MatrixXd fit;           ///< [node][point]: values at the nodes of the fitted polynomial
+    Eigen::MatrixXd shape_values;  ///< [sample][node]
+    Eigen::MatrixXd point_values;  ///< [sample][point]: values at the samples of the element's own stress
+    Eigen::MatrixXd volume_shares; ///< [sample][point]: of the volume of a point
   };
 
   static CellFit fit_cells(const MeshPart<dim> &part);
+  static void sample_cells(const MeshPart<dim> &part, const Eigen::MatrixXd &coefficients, CellFit &fit);
   const CellFit &fit_of(unsigned int cell) const;
 
   const Discretization<dim> *discretization;

@@ -70,6 +70,34 @@ TYPED_TEST(LoadsAndMass, MassOfADistortedMeshIsDensityTimesVolume)
               1e-12 * mass);
 }
 
+/// Shares of a node in the mass of its element, in proportion to the diagonal of the consistent mass (Hinton,
+/// Rock, Zienkiewicz 1976): of quadratic simplices ∫N² of a corner and of an edge are as 3 to 16.
+TYPED_TEST(LoadsAndMass, SimplicesShareTheirMassAsTheDiagonalDoes)
+{
+  constexpr int dim = TypeParam::dim;
+  const BodyParameters box = make_simplex_box("box", dim, {2., 1.5, 1.}, {1, 1, 1});
+  const BuiltScene<dim> built({box}, TypeParam::degree);
+  const bool is_linear = TypeParam::degree == 1;
+  const double corner = is_linear  ? 1. / (dim + 1)
+                        : dim == 2 ? 1. / 19.
+                                   : 1. / 36.,
+               edge = dim == 2 ? 16. / 57. : 4. / 27.;
+  const CellTable<dim> &cells = built.discretization.cells;
+  double volume_of_all = 0.;
+  for (unsigned int cell = 0; cell < cells.n_cells; ++cell)
+  {
+    const double *weights = cells.cell_weights(cell), *shares = cells.cell_nodal_measures(cell);
+    const double volume = std::accumulate(weights, weights + cells.n_points(cell), 0.);
+    ASSERT_EQ(cells.n_nodes(cell), is_linear ? dim + 1u : (dim + 1u) * (dim + 2u) / 2u);
+    for (unsigned int a = 0; a < cells.n_nodes(cell); ++a)
+      EXPECT_NEAR(shares[a], (a <= dim ? corner : edge) * volume, 1e-13 * volume);
+    volume_of_all += volume;
+  }
+  EXPECT_NEAR(volume_of_all, 3., 1e-13);
+  EXPECT_NEAR(checked_total(built, make_lumped_mass(built.scene.materials, built.discretization), 0),
+              box.material.density * 3., 1e-12);
+}
+
 template <int dim>
 VectorAndMoment load_on(BuiltScene<dim> &built, double time = 0.)
 {
