@@ -3,6 +3,8 @@
 
 #include <deal.II/base/mpi.h>
 
+#include <map>
+
 namespace signorini
 {
 template <int dim>
@@ -24,6 +26,27 @@ void NodeMap<dim>::set_nodes(std::vector<NodeDofs> node_dofs)
       owned_nodes.emplace_back(node, local);
     }
   gather_constraints();
+  find_masters();
+}
+
+template <int dim>
+void NodeMap<dim>::find_masters()
+{
+  // All components of a node hang alike: the first speaks for them.
+  std::map<dealii::types::global_dof_index, unsigned int> node_of_dof;
+  node_masters.resize(dofs.size());
+  for (unsigned int node = 0; node < dofs.size(); ++node)
+  {
+    node_of_dof[dofs[node][0]] = node;
+    node_masters[node] = {{node, 1.}};
+  }
+  for (const auto &line : lines)
+    if (const auto hanging = node_of_dof.find(line.index); hanging != node_of_dof.end())
+    {
+      node_masters[hanging->second].clear();
+      for (const auto &[master, weight] : line.entries)
+        node_masters[hanging->second].emplace_back(node_of_dof.at(master), weight);
+    }
 }
 
 template <int dim>

@@ -105,6 +105,7 @@ Json describe_energy(const Results<dim> &results)
           {"dissipated", energy.dissipated},
           {"work", energy.work_of_loads + energy.work_of_supports},
           {"contact_renewals", energy.contact_renewals},
+          {"contact_loss", energy.contact_loss},
           {"adaptation", energy.adaptation},
           {"max_adaptation", energy.max_adaptation},
           {"initial", energy.initial},

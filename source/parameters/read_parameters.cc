@@ -90,7 +90,7 @@ void check_quasi_static(const ParameterText &text, const Parameters &parameters)
       throw InputError(Complaint(fmt::format("'{}' contradicts 'Quasi-static': {}", path, what))
                            .at(text.where(path))
                            .found("'Quasi-static' stands at " + text.where("Quasi-static"))
-                           .advise("remove the subsection, or run 'Explicit'"));
+                           .advise("remove the subsection, or run 'Explicit' or 'Implicit'"));
   };
   for (const BodyParameters &body : parameters.bodies)
     reject("Body " + body.name + "/Initial motion", "without inertia there is no velocity");
@@ -98,23 +98,51 @@ void check_quasi_static(const ParameterText &text, const Parameters &parameters)
 }
 
 /// Things that only an equilibrium has.
-void check_explicit(const ParameterText &text, const Parameters &parameters)
+void check_motion(const ParameterText &text, const Parameters &parameters)
 {
+  const std::string run = name_of(parameters.solver);
+  const auto complain = [&](const std::string &what, const std::string &place)
+  {
+    return Complaint(fmt::format("{} contradicts '{}': it goes from equilibrium to equilibrium", what, run))
+        .at(place)
+        .found(fmt::format("'{}' stands at {}", run, text.where(run)));
+  };
+  if (parameters.contact && parameters.contact->correction)
+    throw InputError(complain("'Contact/Correction'", text.where("Contact/Correction"))
+                         .advise("remove the subsection, or run 'Quasi-static'"));
+  if (parameters.contact && !parameters.contact->penalty_factor)
+    throw InputError(complain("'Penalty factor = auto'", text.where("Contact", "Penalty factor"))
+                         .expected("a number")
+                         .advise("give a number such as 2, or run 'Quasi-static'"));
+}
+
+/// What steps with implicit contact do not have.
+void check_implicit_contact(const ParameterText &text, const Parameters &parameters)
+{
+  using Stepping = ExplicitParameters::ContactStepping;
+  const auto *run = std::get_if<ExplicitParameters>(&parameters.solver);
+  const bool is_implicit = std::holds_alternative<ImplicitParameters>(parameters.solver);
+  if (is_implicit && parameters.adaptivity)
+    throw InputError(Complaint("'Adaptivity' is not there for 'Implicit' runs")
+                         .at(text.where("Adaptivity"))
+                         .found("'Implicit' stands at " + text.where("Implicit"))
+                         .advise("remove the subsection, or run 'Explicit' or 'Quasi-static'"));
   if (!parameters.contact)
     return;
-  const auto complain = [&](const std::string &what, const std::string &place)
-  { return Complaint(what).at(place).found("'Explicit' stands at " + text.where("Explicit")); };
-  if (parameters.contact->correction)
-    throw InputError(complain("'Contact/Correction' contradicts 'Explicit': it goes from equilibrium to "
-                              "equilibrium",
-                              text.where("Contact/Correction"))
-                         .advise("remove the subsection, or run 'Quasi-static'"));
-  if (!parameters.contact->penalty_factor)
+  if (is_implicit && parameters.contact->damping)
     throw InputError(
-        complain("'Penalty factor = auto' contradicts 'Explicit': it goes from equilibrium to equilibrium",
-                 text.where("Contact", "Penalty factor"))
-            .expected("a number")
-            .advise("give a number such as 2, or run 'Quasi-static'"));
+        Complaint("'Contact/Damping' is not there for 'Implicit' runs, whose contact dissipates by itself")
+            .at(text.where("Contact/Damping"))
+            .found("'Implicit' stands at " + text.where("Implicit"))
+            .advise("remove the subsection, or run 'Explicit'"));
+  if ((is_implicit || (run && run->contact_stepping == Stepping::implicit_forces)) &&
+      parameters.contact->potential == ContactParameters::Potential::volume)
+    throw InputError(
+        Complaint("implicit contact moves points of surfaces, which the volume potential does not have")
+            .at(is_implicit ? text.where("Implicit") : text.where("Explicit", "Contact stepping"))
+            .found("'Potential = volume' stands at " + text.where("Contact", "Potential"))
+            .advise(is_implicit ? "set Potential = surface, or run 'Explicit'"
+                                : "set Contact stepping = explicit, or Potential = surface"));
 }
 
 void check_contact_error(const ParameterText &text, const Parameters &parameters)
@@ -159,15 +187,15 @@ void check_adaptable(const ParameterText &text, const Parameters &parameters)
 
 void check_densities(const ParameterText &text, const Parameters &parameters)
 {
-  const bool is_explicit = std::holds_alternative<ExplicitParameters>(parameters.solver);
+  const bool has_inertia = !std::holds_alternative<QuasiStaticParameters>(parameters.solver);
   const bool has_weight = parameters.gravity != Triple{};
   for (const BodyParameters &body : parameters.bodies)
-    if ((is_explicit || has_weight) && body.material.density == 0.)
+    if ((has_inertia || has_weight) && body.material.density == 0.)
     {
       const std::string path = "Body " + body.name + "/Material";
       throw InputError(Complaint(fmt::format("'{}/Density' is missing", path))
                            .at(text.where(path))
-                           .found(is_explicit ? "an explicit run needs the mass of every body"
+                           .found(has_inertia ? "a run in motion needs the mass of every body"
                                               : "gravity needs the mass of every body")
                            .expected("a number > 0 [kg/m³]")
                            .advise("add 'set Density = …' there"));
@@ -198,7 +226,8 @@ void check_together(const ParameterText &text, const Parameters &parameters)
   if (std::holds_alternative<QuasiStaticParameters>(parameters.solver))
     check_quasi_static(text, parameters);
   else
-    check_explicit(text, parameters);
+    check_motion(text, parameters);
+  check_implicit_contact(text, parameters);
   check_contact_error(text, parameters);
   check_degree_of_potential(text, parameters);
   check_adaptable(text, parameters);

@@ -3,6 +3,9 @@
 
 #include "signorini/parameters/section_reader.h"
 
+#include <fmt/format.h>
+
+#include <array>
 #include <filesystem>
 
 namespace signorini
@@ -15,6 +18,14 @@ const NameTable<QuasiStaticParameters::LinearSolver> &linear_solvers()
       {"automatic", QuasiStaticParameters::LinearSolver::automatic},
       {"direct", QuasiStaticParameters::LinearSolver::direct},
       {"cg amg", QuasiStaticParameters::LinearSolver::cg_amg}};
+  return table;
+}
+
+const NameTable<ExplicitParameters::ContactStepping> &contact_steppings()
+{
+  static const NameTable<ExplicitParameters::ContactStepping> table{
+      {"explicit", ExplicitParameters::ContactStepping::explicit_forces},
+      {"implicit", ExplicitParameters::ContactStepping::implicit_forces}};
   return table;
 }
 
@@ -59,6 +70,30 @@ const std::vector<RunEntry<ExplicitParameters>> &explicit_entries()
       {"Contact step factor", number_between(0., 1.), "0.5", "",
        "Time step as a share of the bound with contact springs; unilateral contact needs less than 1.",
        &Run::contact_step_factor},
+      {"Ledger tolerance", number_above(0.), "0.05", "",
+       "The run stops when the energy ledger is open by more than this share of the largest energy.",
+       &Run::ledger_tolerance}};
+  return entries;
+}
+
+const std::vector<RunEntry<ImplicitParameters>> &implicit_entries()
+{
+  using Run = ImplicitParameters;
+  static const std::vector<RunEntry<Run>> entries{
+      {"End time", positive_number(), "1", "s", "Length of the run.", &Run::end_time},
+      {"Maximum bisections", integer_from(0, 40), "12", "",
+       "How often a step that fails, goes too deep or is too unsteady is halved.", &Run::max_bisections},
+      {"Step tolerance", number_from(0.), "0", "",
+       "Largest part of the largest speed by which the change of velocities in a step may differ from that "
+       "in the "
+       "one before; longer steps are halved. 0: all steps are as long as 'Time step'.",
+       &Run::step_tolerance},
+      {"Tolerance", number_above_up_to(0., 1e-2), "1e-9", "",
+       "Largest residual force of any body, relative to the root of the sum of squares of that body's own "
+       "forces.",
+       &Run::tolerance},
+      {"Maximum iterations", integer_from(1, 10000), "50", "", "Newton iterations in one step.",
+       &Run::max_iterations},
       {"Ledger tolerance", number_above(0.), "0.05", "",
        "The run stops when the energy ledger is open by more than this share of the largest energy.",
        &Run::ledger_tolerance}};
@@ -133,8 +168,9 @@ void read_entries(const std::vector<RunEntry<Run>> &entries, const SectionReader
 
 void declare_quasi_static(Declarations &declarations)
 {
-  SubsectionDeclaration run(declarations, "Quasi-static",
-                            "Equilibrium without inertia, in load steps; excludes 'Explicit'.");
+  SubsectionDeclaration run(
+      declarations, "Quasi-static",
+      "Equilibrium without inertia, in load steps; excludes 'Explicit' and 'Implicit'.");
   declare_entries(quasi_static_entries(), run);
   run.add("Linear solver", one_of(names_in(linear_solvers())), "automatic", "",
           "By size; factorisation; or conjugate gradients with algebraic multigrid.");
@@ -143,8 +179,23 @@ void declare_quasi_static(Declarations &declarations)
 void declare_explicit(Declarations &declarations)
 {
   SubsectionDeclaration run(declarations, "Explicit",
-                            "Motion by explicit time steps; excludes 'Quasi-static'.");
+                            "Motion by explicit time steps; excludes 'Quasi-static' and 'Implicit'.");
   declare_entries(explicit_entries(), run);
+  run.add(
+      "Contact stepping", one_of(names_in(contact_steppings())), "explicit", "",
+      "Explicit: contact shortens the step the more, the higher the penalty. Implicit: the contact forces "
+      "of each step are solved for, and the bodies alone set its length.");
+}
+
+void declare_implicit(Declarations &declarations)
+{
+  SubsectionDeclaration run(
+      declarations, "Implicit",
+      "Motion by implicit time steps of any length; excludes 'Quasi-static' and 'Explicit'.");
+  run.add_required("Time step", positive_number(), "s", "Longest time step.");
+  declare_entries(implicit_entries(), run);
+  run.add("Linear solver", one_of(names_in(linear_solvers())), "automatic", "",
+          "By size; factorisation; or conjugate gradients with algebraic multigrid.");
 }
 
 QuasiStaticParameters read_quasi_static(const SectionReader &section)
@@ -159,6 +210,16 @@ ExplicitParameters read_explicit(const SectionReader &section)
 {
   ExplicitParameters run;
   read_entries(explicit_entries(), section, run);
+  run.contact_stepping = section.choice("Contact stepping", contact_steppings());
+  return run;
+}
+
+ImplicitParameters read_implicit(const SectionReader &section)
+{
+  ImplicitParameters run;
+  read_entries(implicit_entries(), section, run);
+  run.time_step = section.number("Time step");
+  run.linear_solver = section.choice("Linear solver", linear_solvers());
   return run;
 }
 } // namespace
@@ -202,26 +263,38 @@ void declare_solver(Declarations &declarations, const DeclarationScope &scope)
     declare_quasi_static(declarations);
   if (scope.includes("Explicit"))
     declare_explicit(declarations);
+  if (scope.includes("Implicit"))
+    declare_implicit(declarations);
 }
 
-std::variant<QuasiStaticParameters, ExplicitParameters> read_solver(const ParameterText &text,
-                                                                    const Declarations &in_use)
+std::string name_of(const SolverParameters &solver)
 {
-  const bool quasi_static = text.find_subsection("Quasi-static") != nullptr;
-  const bool is_explicit = text.find_subsection("Explicit") != nullptr;
-  if (quasi_static && is_explicit)
-    throw InputError(Complaint("'Quasi-static' and 'Explicit' contradict each other")
-                         .at(text.where("Explicit"))
-                         .found("'Quasi-static' stands at " + text.where("Quasi-static"))
+  static const std::array<std::string, 3> names{"Quasi-static", "Explicit", "Implicit"};
+  return names.at(solver.index());
+}
+
+SolverParameters read_solver(const ParameterText &text, const Declarations &in_use)
+{
+  std::vector<std::string> present;
+  for (const std::string name : {"Quasi-static", "Explicit", "Implicit"})
+    if (text.find_subsection(name) != nullptr)
+      present.push_back(name);
+  if (present.size() > 1)
+    throw InputError(Complaint(fmt::format("'{}' and '{}' contradict each other", present[0], present[1]))
+                         .at(text.where(present[1]))
+                         .found(fmt::format("'{}' stands at {}", present[0], text.where(present[0])))
                          .advise("remove one of the two subsections"));
-  if (!quasi_static && !is_explicit)
-    throw InputError(Complaint("the run has neither 'Quasi-static' nor 'Explicit'")
+  if (present.empty())
+    throw InputError(Complaint("the run has none of 'Quasi-static', 'Explicit' and 'Implicit'")
                          .at(text.where(""))
                          .expected("exactly one of these subsections")
-                         .advise("add one of the two; it may be empty"));
-  if (quasi_static)
-    return read_quasi_static(SectionReader(text, in_use, "Quasi-static", 3));
-  return read_explicit(SectionReader(text, in_use, "Explicit", 3));
+                         .advise("add one of them; the first two may be empty"));
+  const SectionReader section(text, in_use, present.front(), 3);
+  if (present.front() == "Quasi-static")
+    return read_quasi_static(section);
+  if (present.front() == "Explicit")
+    return read_explicit(section);
+  return read_implicit(section);
 }
 
 void declare_output(Declarations &declarations, const DeclarationScope &scope)

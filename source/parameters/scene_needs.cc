@@ -2,6 +2,7 @@
 #include "signorini/parameters/scene_needs.h"
 
 #include "signorini/parameters/expression.h"
+#include "signorini/parameters/run_parameters.h"
 
 #include <fmt/format.h>
 
@@ -35,17 +36,17 @@ std::string count_obstacles(const Parameters &parameters)
   return count(parameters.obstacles.size(), "obstacle", "obstacles");
 }
 
-template <typename Run>
-SceneNeed run_of(const std::string &name)
+/// A run of one of the kinds for which `is_right(solver)`.
+template <typename IsRight>
+SceneNeed run_for_which(const std::string &text, const IsRight &is_right)
 {
-  return {"'" + name + "'",
-          [](const ParameterText &text, const Parameters &parameters) -> MaybeFault
+  return {text,
+          [is_right](const ParameterText &file, const Parameters &parameters) -> MaybeFault
           {
-            if (std::holds_alternative<Run>(parameters.solver))
+            if (is_right(parameters.solver))
               return {};
-            const bool is_explicit = std::holds_alternative<ExplicitParameters>(parameters.solver);
-            const std::string found = is_explicit ? "Explicit" : "Quasi-static";
-            return SceneFault{text.where(found), found};
+            const std::string found = name_of(parameters.solver);
+            return SceneFault{file.where(found), found};
           }};
 }
 
@@ -172,12 +173,14 @@ SceneNeed dimension_equal_to(const unsigned int dimension)
 
 SceneNeed quasi_static_run()
 {
-  return run_of<QuasiStaticParameters>("Quasi-static");
+  return run_for_which("'Quasi-static'", [](const SolverParameters &solver)
+                       { return std::holds_alternative<QuasiStaticParameters>(solver); });
 }
 
-SceneNeed explicit_run()
+SceneNeed run_in_motion()
 {
-  return run_of<ExplicitParameters>("Explicit");
+  return run_for_which("'Explicit' or 'Implicit'", [](const SolverParameters &solver)
+                       { return !std::holds_alternative<QuasiStaticParameters>(solver); });
 }
 
 SceneNeed contact()

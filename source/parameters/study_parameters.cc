@@ -43,6 +43,8 @@ const std::vector<FactorEntry> &factor_entries()
        "Values of 'Contact/Penalty factor', separated by commas."},
       {Factor::linear_solver, "Linear solvers", any_text(), "Quasi-static",
        "Values of 'Quasi-static/Linear solver', separated by commas."},
+      {Factor::contact_stepping, "Contact steppings", any_text(), "Explicit",
+       "Values of 'Explicit/Contact stepping', separated by commas."},
       {Factor::step_factor, "Step factors", list_of(number_above(0.), 1, longest_list), "Explicit",
        "What 'Bulk step factor' and 'Contact step factor' of 'Explicit' are multiplied by."}};
   return entries;

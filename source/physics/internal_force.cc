@@ -30,6 +30,13 @@ template <int dim>
 void InternalForce<dim>::update(const State &state)
 {
   displacement = &state.displacement;
+  if (step_start == nullptr)
+    return;
+  middle = state.displacement;
+  middle += *step_start;
+  middle *= 0.5;
+  middle.update_ghost_values();
+  displacement = &middle;
 }
 
 template <int dim>
@@ -67,7 +74,7 @@ double InternalForce<dim>::energy() const
   double sum = 0.;
   for_each_cell([&](auto &kernel, unsigned int, const CellGeometry &geometry, const double *u)
                 { sum += kernel.energy(geometry, u); });
-  return dealii::Utilities::MPI::sum(sum, discretization->communicator());
+  return (step_start != nullptr ? 2. : 1.) * dealii::Utilities::MPI::sum(sum, discretization->communicator());
 }
 
 template <int dim>
@@ -117,6 +124,8 @@ void InternalForce<dim>::add_tangent(TangentSystem &system) const
         zero.reinit(n);
         dofs.resize(n);
         matrix.fill(tangent.data());
+        if (step_start != nullptr)
+          matrix *= 0.5;
         for (unsigned int i = 0; i < n; ++i)
           dofs[i] = partitioner.local_to_global(cells.cell_dofs(cell)[i]);
         system.constraints->distribute_local_to_global(matrix, zero, dofs, system.matrix,

@@ -33,7 +33,7 @@ Simulation<dim>::Simulation(const ParameterText &parameter_text, const Parameter
   list_parts();
 
   state.displacement = discretization->make_vector();
-  if (std::holds_alternative<ExplicitParameters>(parameters.solver))
+  if (is_in_motion())
     set_initial_motion();
   else
   {
@@ -52,9 +52,7 @@ void Simulation<dim>::build_on_mesh()
   forces.elasticity = std::make_shared<InternalForce<dim>>(scene.materials, *discretization);
   if (!scene.loads.empty() || scene.gravity.norm() > 0.)
     forces.loads.push_back(std::make_shared<DeadLoad<dim>>(
-        scene, *discretization,
-        std::holds_alternative<ExplicitParameters>(parameters.solver) ? WeightShares::lumped_mass
-                                                                      : WeightShares::shape_integrals));
+        scene, *discretization, is_in_motion() ? WeightShares::lumped_mass : WeightShares::shape_integrals));
   if (parameters.contact)
     build_contact();
   estimator = std::make_unique<ErrorEstimator<dim>>(*discretization, scene, forces, surface_map.get());
@@ -75,7 +73,11 @@ void Simulation<dim>::list_parts()
     else
       results.parts_left_out.push_back({name, reason});
   };
-  const bool is_explicit = std::holds_alternative<ExplicitParameters>(parameters.solver);
+  const bool is_explicit = std::holds_alternative<ExplicitParameters>(parameters.solver),
+             is_implicit = std::holds_alternative<ImplicitParameters>(parameters.solver);
+  const std::string kind = "the run is " + std::string(is_explicit   ? "explicit"
+                                                       : is_implicit ? "implicit"
+                                                                     : "quasi-static");
   note(true, "elasticity", "");
   note(!forces.loads.empty(), "loads", "no gravity and no subsection Load");
   note(!scene.supports.empty(), "supports", "no subsection Support");
@@ -87,9 +89,14 @@ void Simulation<dim>::list_parts()
   note(!scene.obstacles.empty(), "contact with obstacles", "no obstacle");
   note(correction != nullptr, "contact correction", "no subsection Contact/Correction");
   note(!forces.damped_contacts.empty(), "contact damping", "no subsection Contact/Damping");
-  note(!is_explicit, "quasi-static solver", "the run is explicit");
-  note(is_explicit, "explicit solver", "the run is quasi-static");
-  note(is_explicit, "mass and ledgers of energy and momentum", "the run is quasi-static");
+  note(!is_in_motion(), "quasi-static solver", kind);
+  note(is_explicit, "explicit solver", kind);
+  note(is_implicit, "implicit solver", kind);
+  note(has_implicit_contact(), "implicit contact stepping",
+       !is_explicit  ? kind
+       : surface_map ? "Explicit/Contact stepping is explicit"
+                     : "no subsection Contact");
+  note(is_in_motion(), "mass and ledgers of energy and momentum", kind);
   note(true, "error estimate", "");
   note(parameters.adaptivity.has_value(), "adaptive refinement", "no subsection Adaptivity");
   note(parameters.exact_solution.has_value(), "exact solution", "no subsection Exact solution");
@@ -112,6 +119,8 @@ void Simulation<dim>::run()
   {
     if (std::holds_alternative<QuasiStaticParameters>(parameters.solver))
       run_quasi_static();
+    else if (const auto *implicit = std::get_if<ImplicitParameters>(&parameters.solver))
+      run_implicit(*implicit);
     else
       run_explicit(std::get<ExplicitParameters>(parameters.solver));
     results.status = "ok";

@@ -22,12 +22,13 @@ contact::PotentialSettings make_settings(const Parameters &parameters, double pe
 {
   using Wanted = ContactParameters::Integration;
   const ContactParameters &contact = *parameters.contact;
-  const bool is_explicit = std::holds_alternative<ExplicitParameters>(parameters.solver);
+  const bool is_in_motion = !std::holds_alternative<QuasiStaticParameters>(parameters.solver);
   contact::PotentialSettings settings;
   settings.penalty_factor = penalty_factor;
   settings.n_quadrature_points = contact.quadrature_points;
-  const bool is_by_faces =
-      contact.integration == Wanted::automatic ? is_explicit : contact.integration == Wanted::face_quadrature;
+  const bool is_by_faces = contact.integration == Wanted::automatic
+                               ? is_in_motion
+                               : contact.integration == Wanted::face_quadrature;
   settings.integration =
       is_by_faces ? contact::Integration::face_quadrature : contact::Integration::face_segments;
   if (contact.damping)
@@ -230,22 +231,27 @@ void Simulation<dim>::check_initial_overlap()
 }
 
 template <int dim>
-void Simulation<dim>::check_motion(double time_step) const
+double Simulation<dim>::limit_time_step(double time_step) const
 {
-  constexpr double limit = 0.5;
+  constexpr double limit = 0.5, shortest = 1e-3;
   if (!surface_map)
-    return;
+    return time_step;
   const double thinnest = surface_map->surface().smallest_room();
   const double motion = time_step * state.velocity.linfty_norm();
-  if (motion > limit * thinnest)
+  if (!(motion > limit * thinnest))
+    return time_step;
+  const double share = limit * thinnest / motion;
+  if (share < shortest)
     throw NumericalError(
         Complaint(
             fmt::format("bodies move by {:.3g} m in one step at t = {:.6g}: they could pass through each "
                         "other unseen",
                         motion, state.time))
-            .expected(
-                fmt::format("at most {} of the thinnest element or half body, {:.3g} m", limit, thinnest))
+            .expected(fmt::format("at most {} of the thinnest element or half body, {:.3g} m, or the step is "
+                                  "shortened, though not below {} of its length",
+                                  limit, thinnest, shortest))
             .advise("check speeds, loads and units, or lower Explicit/Bulk step factor"));
+  return share * time_step;
 }
 
 template <int dim>

@@ -20,20 +20,12 @@ void Simulation<dim>::run_explicit(const ExplicitParameters &solver_parameters)
   if (parameters.adaptivity)
     file_levels = std::make_unique<FileLevels<dim>>(parameters.bodies);
   explicit_solver->start(state);
-  const unsigned int n_rows = std::max(1u, parameters.output.n_statistics);
-  const unsigned int n_fields = std::max(1u, parameters.output.n_fields);
-  record_explicit(0., end);
-  estimate_error();
-  write_fields();
-  // Rows and fields are written by the first step that reaches their time: outputs do not shape the steps.
-  unsigned int row = 1, field = 1;
-  double time_of_fields = 0.;
+  begin_records(*explicit_solver, end);
   while (state.time < end)
   {
     if (const double unadapted_step = next_time_step(end); is_adaptation_due(unadapted_step))
       adapt_in_explicit_run(unadapted_step);
     const double time_step = next_time_step(end);
-    check_motion(time_step);
     explicit_solver->step(time_step, state);
     if (end - state.time < 1e-9 * time_step)
       state.time = end;
@@ -42,51 +34,74 @@ void Simulation<dim>::run_explicit(const ExplicitParameters &solver_parameters)
     record_contact(measures);
     if (const std::optional<Complaint> fault = find_deep_penetration(measures))
       throw NumericalError(*fault);
-    if (state.time >= end || state.time >= end * row / n_rows)
-    {
-      explicit_solver->take_stock(state);
-      record_explicit(time_step, end);
-      row = 1 + static_cast<unsigned int>(std::floor(state.time / end * n_rows));
-    }
-    if (state.time >= end || state.time >= end * field / n_fields)
-    {
-      estimate_error();
-      write_fields();
-      time_of_fields = state.time;
-      field = 1 + static_cast<unsigned int>(std::floor(state.time / end * n_fields));
-    }
-    if (state.time < end)
-      check_interruption(
-          [&]()
-          {
-            explicit_solver->take_stock(state);
-            if (results.history.back().time < state.time)
-              record_explicit(time_step, end);
-            estimate_error();
-            if (time_of_fields < state.time)
-              write_fields();
-          });
+    record_when_due(*explicit_solver, time_step, end);
   }
+}
+
+template <int dim>
+void Simulation<dim>::begin_records(MotionSolver<dim> &solver, double end)
+{
+  record_motion(solver, 0., end);
+  estimate_error();
+  write_fields();
+}
+
+template <int dim>
+void Simulation<dim>::record_when_due(MotionSolver<dim> &solver, double time_step, double end)
+{
+  const unsigned int n_rows = std::max(1u, parameters.output.n_statistics);
+  const unsigned int n_fields = std::max(1u, parameters.output.n_fields);
+  if (state.time >= end || state.time >= end * next_row / n_rows)
+  {
+    solver.take_stock(state);
+    record_motion(solver, time_step, end);
+    next_row = 1 + static_cast<unsigned int>(std::floor(state.time / end * n_rows));
+  }
+  if (state.time >= end || state.time >= end * next_field / n_fields)
+  {
+    estimate_error();
+    write_fields();
+    time_of_fields = state.time;
+    next_field = 1 + static_cast<unsigned int>(std::floor(state.time / end * n_fields));
+  }
+  if (state.time < end)
+    check_interruption(
+        [&]()
+        {
+          solver.take_stock(state);
+          if (results.history.back().time < state.time)
+            record_motion(solver, time_step, end);
+          estimate_error();
+          if (time_of_fields < state.time)
+            write_fields();
+        });
+}
+
+template <int dim>
+bool Simulation<dim>::has_implicit_contact() const
+{
+  const auto *run = std::get_if<ExplicitParameters>(&parameters.solver);
+  return run && surface_map && run->contact_stepping == ExplicitParameters::ContactStepping::implicit_forces;
 }
 
 template <int dim>
 double Simulation<dim>::next_time_step(double end) const
 {
-  const double remaining = end - state.time, stable = explicit_solver->stable_step();
+  const double remaining = end - state.time, stable = limit_time_step(explicit_solver->stable_step());
   if (!(state.time + stable > state.time))
     throw NumericalError(Complaint(fmt::format("the stable time step vanishes at t = {:.6g}", state.time))
                              .found(fmt::format("{} s", stable))
                              .advise("look at the last fields for a crushed cell; refine, or lower "
                                      "Contact/Penalty factor"));
-  return remaining > 2. * stable ? stable : remaining / std::max(1., std::ceil(remaining / stable - 1e-9));
+  return remaining / std::max(1., std::ceil(remaining / stable - 1e-9));
 }
 
 template <int dim>
-void Simulation<dim>::record_explicit(double time_step, double end)
+void Simulation<dim>::record_motion(const MotionSolver<dim> &solver, double time_step, double end)
 {
   const auto joules = [](const std::string &name) { return name + (dim == 2 ? " [J/m]" : " [J]"); };
-  const EnergyLedger &energy = explicit_solver->energy();
-  const MomentumLedger &momentum = explicit_solver->momentum();
+  const EnergyLedger &energy = solver.energy();
+  const MomentumLedger &momentum = solver.momentum();
   results.has_ledger = true;
   results.energy = energy;
   results.momentum = momentum;
@@ -106,6 +121,8 @@ void Simulation<dim>::record_explicit(double time_step, double end)
                       {"ledger residual [1]", energy.residual()},
                       {"linear momentum drift [1]", momentum.linear_drift()},
                       {"angular momentum drift [1]", momentum.angular_drift()}};
+  if (has_implicit_contact() || implicit_solver)
+    row.emplace_back(joules("energy lost by implicit contact since the start"), energy.contact_loss);
   if (parameters.adaptivity)
   {
     row.emplace_back(joules("energy of adaptation since the start"), energy.adaptation);
@@ -126,33 +143,35 @@ void Simulation<dim>::record_explicit(double time_step, double end)
         Complaint(
             fmt::format("the motion is no longer a number at t = {:.6g}: an element was turned inside out",
                         state.time))
-            .advise("look at the last fields; refine, or lower the step factors"));
-  const double tolerance = std::get<ExplicitParameters>(parameters.solver).ledger_tolerance;
+            .advise("look at the last fields; refine, or shorten the steps"));
+  const auto *implicit = std::get_if<ImplicitParameters>(&parameters.solver);
+  const double tolerance = implicit ? implicit->ledger_tolerance
+                                    : std::get<ExplicitParameters>(parameters.solver).ledger_tolerance;
   if (!(std::abs(energy.residual()) <= tolerance))
     throw NumericalError(
         Complaint(fmt::format("the energy ledger does not close at t = {:.6g}", state.time))
             .found(fmt::format("{:+.3g} of the largest energy", energy.residual()))
             .expected(fmt::format("at most {}", tolerance))
-            .advise("lower Explicit/Contact step factor or Contact/Penalty factor, or refine"));
+            .advise(implicit ? "lower Implicit/Time step, or refine"
+                             : "lower Explicit/Contact step factor or Contact/Penalty factor, or refine"));
 }
 
 template <int dim>
 void Simulation<dim>::check_start(const typename SupportedDofs<dim>::Entry &entry) const
 {
   constexpr double round_off = 1e-12;
-  const double end_time = std::get<ExplicitParameters>(parameters.solver).end_time;
+  const double end_time = std::visit([](const auto &run) { return run.end_time; }, parameters.solver);
   const double start = supports->value(entry, 0.);
   if (std::abs(start) <= round_off * std::abs(supports->value(entry, end_time)))
     return;
   const Support<dim> &support = scene.supports[entry.support];
-  throw InputError(
-      Complaint(fmt::format("the displacement of a support starts at {:.6g} m, not 0: an explicit "
-                            "run would begin with a shock",
-                            start))
-          .at(support.description)
-          .found(support.displacement.formula())
-          .expected("0 at t = 0")
-          .advise("let it grow with t, or move the body by Placement/Shift"));
+  throw InputError(Complaint(fmt::format("the displacement of a support starts at {:.6g} m, not 0: the run "
+                                         "would begin with a shock",
+                                         start))
+                       .at(support.description)
+                       .found(support.displacement.formula())
+                       .expected("0 at t = 0")
+                       .advise("let it grow with t, or move the body by Placement/Shift"));
 }
 
 template <int dim>

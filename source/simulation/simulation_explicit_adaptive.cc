@@ -49,6 +49,7 @@ void Simulation<dim>::adapt_in_explicit_run(double time_step)
   if (!mark_in_motion(duration, is_any_error ? OtherCells::by_error : OtherCells::coarser))
     return;
   explicit_solver->take_stock(state);
+  explicit_solver->suspend(state);
   VectorAndMoment momentum_change;
   // Cells that contact is about to reach take all their levels at once.
   unsigned int n_rounds = 0;

@@ -59,6 +59,10 @@ void Simulation<dim>::print_plan()
   if (const auto *quasi_static = std::get_if<QuasiStaticParameters>(&parameters.solver))
     progress.say(
         fmt::format("Quasi-static: {} load steps to {}", quasi_static->load_steps, quasi_static->end_time));
+  else if (const auto *implicit = std::get_if<ImplicitParameters>(&parameters.solver))
+    progress.say(fmt::format("Implicit: time step {:.4g} s, {:.0f} steps to {} s at least",
+                             implicit->time_step, std::ceil(implicit->end_time / implicit->time_step),
+                             implicit->end_time));
   else
   {
     const auto &explicit_parameters = std::get<ExplicitParameters>(parameters.solver);

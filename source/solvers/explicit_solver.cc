@@ -4,6 +4,7 @@
 #include "signorini/physics/mass.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace signorini
 {
@@ -26,9 +27,14 @@ ExplicitSolver<dim>::ExplicitSolver(const Discretization<dim> &the_discretizatio
   for (const OwnedNode<dim> &node : discretization->owned_nodes)
     if (std::any_of(node.dofs.begin(), node.dofs.end(), [&](unsigned int dof) { return is_supported[dof]; }))
       dofs_of_supported_nodes.insert(dofs_of_supported_nodes.end(), node.dofs.begin(), node.dofs.end());
+  if (parameters.contact_stepping == ExplicitParameters::ContactStepping::implicit_forces &&
+      !forces->surface_contacts.empty())
+    implicit_contact =
+        std::make_unique<ImplicitContact<dim>>(*discretization, *supports, forces->surface_contacts, mass);
+  half_step_of_contact = discretization->make_vector();
   has_external_forces = !forces->loads.empty();
   for (const auto &contact : forces->contacts)
-    has_external_forces |= contact->is_external;
+    has_external_forces |= contact->is_external && !implicit_contact;
 }
 
 template <int dim>
@@ -38,7 +44,12 @@ void ExplicitSolver<dim>::begin(State &state)
   discretization->distribute(state.displacement);
   discretization->distribute(state.velocity);
   for (const auto &contact : forces->contacts)
+  {
     contact->renew(state);
+    contact->update(state);
+  }
+  if (implicit_contact)
+    implicit_contact->start();
   compute_forces(state, state.velocity);
   update_bulk_bound();
   take_stock(state);
@@ -48,9 +59,7 @@ template <int dim>
 void ExplicitSolver<dim>::start(State &state)
 {
   begin(state);
-  energy_ledger.initial = energy_ledger.stored();
-  momentum_ledger.initial_linear = momentum_ledger.linear;
-  momentum_ledger.initial_angular = momentum_ledger.angular;
+  this->open_ledgers();
 }
 
 template <int dim>
@@ -93,6 +102,9 @@ bool ExplicitSolver<dim>::is_bulk_bound_stale()
 template <int dim>
 double ExplicitSolver<dim>::stable_step() const
 {
+  const double bulk = parameters.bulk_step_factor * critical_time_step(bulk_frequency_squared, 0.);
+  if (implicit_contact)
+    return bulk;
   unsigned int n_searches = 0;
   for (const auto &contact : forces->contacts)
     n_searches += contact->n_searches();
@@ -104,7 +116,6 @@ double ExplicitSolver<dim>::stable_step() const
     contact_bound = compute_contact_bound(contacts, mass, *discretization);
     n_searches_of_bound = n_searches;
   }
-  const double bulk = parameters.bulk_step_factor * critical_time_step(bulk_frequency_squared, 0.);
   if (contact_bound.frequency_squared == 0.)
     return bulk;
   const double with_contact = critical_time_step(bulk_frequency_squared + contact_bound.frequency_squared,
@@ -135,7 +146,7 @@ void ExplicitSolver<dim>::compute_forces(const State &state, const Vector &veloc
 template <int dim>
 void ExplicitSolver<dim>::compute_contact_forces(const State &state, const Vector &velocity)
 {
-  if (forces->contacts.empty())
+  if (forces->contacts.empty() || implicit_contact)
     return;
   const auto section = run_time->enter("contact");
   for (const auto &contact : forces->contacts)
@@ -170,6 +181,7 @@ void ExplicitSolver<dim>::compute_load_forces(const State &state)
 template <int dim>
 void ExplicitSolver<dim>::step(double time_step, State &state)
 {
+  suspend(state);
   old_force.swap(force);
   old_load_force.swap(load_force);
   old_damping_force.swap(damping_force);
@@ -190,11 +202,14 @@ void ExplicitSolver<dim>::step(double time_step, State &state)
   discretization->distribute(state.displacement);
   discretization->distribute(state.velocity);
 
-  for (const auto &contact : forces->contacts)
-  {
-    const auto section = run_time->enter("contact search");
-    energy_ledger.contact_renewals += contact->renew(state);
-  }
+  if (implicit_contact)
+    move_by_contact(time_step, state);
+  else
+    for (const auto &contact : forces->contacts)
+    {
+      const auto section = run_time->enter("contact search");
+      energy_ledger.contact_renewals += contact->renew(state);
+    }
   compute_forces(state, state.velocity);
   half_velocity_of_supports.resize(supports->owned_dofs().size());
   for (unsigned int i = 0; i < half_velocity_of_supports.size(); ++i)
@@ -205,9 +220,49 @@ void ExplicitSolver<dim>::step(double time_step, State &state)
   for (unsigned int i = 0; i < half_velocity_of_supports.size(); ++i)
     state.velocity.local_element(supports->owned_dofs()[i]) = half_velocity_of_supports[i];
   discretization->distribute(state.velocity);
+  last_time_step = time_step;
   book_step(state, time_step);
+  if (implicit_contact)
+    add_half_step_of_contact(state);
   if (is_bulk_bound_stale())
     update_bulk_bound();
+}
+
+template <int dim>
+void ExplicitSolver<dim>::move_by_contact(double time_step, State &state)
+{
+  const auto section = run_time->enter("contact");
+  const auto booking = implicit_contact->move(old_displacement, time_step, old_force, state);
+  energy_ledger.contact_loss += booking.loss;
+  energy_ledger.dissipated += booking.dissipated;
+  for (unsigned int d = 0; d < 3; ++d)
+  {
+    momentum_ledger.linear_impulse[d] += booking.outer_impulse.vector[d];
+    momentum_ledger.angular_impulse[d] += booking.outer_impulse.moment[d];
+  }
+}
+
+template <int dim>
+void ExplicitSolver<dim>::add_half_step_of_contact(State &state)
+{
+  for (unsigned int i = 0; i < mass.locally_owned_size(); ++i)
+    half_step_of_contact.local_element(i) =
+        mass.local_element(i) > 0.
+            ? 0.5 * last_time_step / mass.local_element(i) * implicit_contact->force().local_element(i)
+            : 0.;
+  supports->clear(half_step_of_contact);
+  state.velocity += half_step_of_contact;
+  discretization->distribute(state.velocity);
+}
+
+template <int dim>
+void ExplicitSolver<dim>::suspend(State &state)
+{
+  if (!implicit_contact)
+    return;
+  state.velocity -= half_step_of_contact;
+  half_step_of_contact = 0.;
+  discretization->distribute(state.velocity);
 }
 
 template <int dim>
@@ -234,6 +289,10 @@ void ExplicitSolver<dim>::book_supports(const State &state, double time_step)
 {
   // What the momentum and kinetic energy of supported nodes changed by beyond the other forces' share came
   // from the supports.
+  // Implicit contact pushes for the whole step, from its start.
+  Vector contact_force = discretization->make_vector();
+  if (implicit_contact)
+    contact_force = implicit_contact->force();
   double work = 0.;
   Vector impulse = discretization->make_vector(), other_impulse = discretization->make_vector();
   for (const unsigned int i : supports->owned_dofs())
@@ -241,7 +300,8 @@ void ExplicitSolver<dim>::book_supports(const State &state, double time_step)
     const double m = mass.local_element(i), v = state.velocity.local_element(i),
                  v_old = old_velocity.local_element(i);
     work += 0.5 * m * (v * v - v_old * v_old) -
-            0.5 * (old_force.local_element(i) + force.local_element(i)) * increment.local_element(i);
+            (0.5 * (old_force.local_element(i) + force.local_element(i)) + contact_force.local_element(i)) *
+                increment.local_element(i);
   }
   // A support that moves its node along turns the momentum of the node's free components with it.
   for (const unsigned int i : dofs_of_supported_nodes)
@@ -249,7 +309,8 @@ void ExplicitSolver<dim>::book_supports(const State &state, double time_step)
     const double m = mass.local_element(i), v = state.velocity.local_element(i),
                  v_old = old_velocity.local_element(i);
     impulse.local_element(i) = m * v - 0.5 * time_step * force.local_element(i);
-    other_impulse.local_element(i) = -m * v_old - 0.5 * time_step * old_force.local_element(i);
+    other_impulse.local_element(i) =
+        -m * v_old - time_step * (0.5 * old_force.local_element(i) + contact_force.local_element(i));
   }
   energy_ledger.work_of_supports += dealii::Utilities::MPI::sum(work, discretization->communicator());
   const VectorAndMoment now = sum_over_nodes(*discretization, state.displacement, impulse);
@@ -264,10 +325,21 @@ void ExplicitSolver<dim>::book_supports(const State &state, double time_step)
 template <int dim>
 void ExplicitSolver<dim>::take_stock(const State &state)
 {
+  // The velocities between the steps, without what add_half_step_of_contact() put there.
+  Vector velocity = state.velocity;
+  velocity -= half_step_of_contact;
   double twice_kinetic = 0.;
   for (unsigned int i = 0; i < mass.locally_owned_size(); ++i)
-    twice_kinetic +=
-        mass.local_element(i) * state.velocity.local_element(i) * state.velocity.local_element(i);
+    twice_kinetic += mass.local_element(i) * velocity.local_element(i) * velocity.local_element(i);
+  if (implicit_contact)
+  {
+    Vector free_force = force;
+    supports->clear(free_force);
+    for (unsigned int i = 0; i < mass.locally_owned_size(); ++i)
+      if (mass.local_element(i) > 0.)
+        twice_kinetic -=
+            0.25 * std::pow(last_time_step * free_force.local_element(i), 2) / mass.local_element(i);
+  }
   energy_ledger.kinetic = 0.5 * dealii::Utilities::MPI::sum(twice_kinetic, discretization->communicator());
   energy_ledger.elastic = forces->elasticity->energy();
   energy_ledger.contact = 0.;
@@ -275,7 +347,7 @@ void ExplicitSolver<dim>::take_stock(const State &state)
     energy_ledger.contact += contact->energy();
   energy_ledger.note_scale();
 
-  const VectorAndMoment momentum = sum_over_nodes(*discretization, state.displacement, state.velocity, &mass);
+  const VectorAndMoment momentum = sum_over_nodes(*discretization, state.displacement, velocity, &mass);
   momentum_ledger.linear = momentum.vector;
   momentum_ledger.angular = momentum.moment;
   momentum_ledger.linear_scale = std::max(momentum_ledger.linear_scale, momentum.vector_scale);

@@ -51,7 +51,7 @@ std::vector<std::vector<StudySetting>> combine(const StudyParameters &study)
   if (combinations.empty())
     combinations.emplace_back();
   for (const Factor factor : {Factor::degree, Factor::potential, Factor::penalty_factor,
-                              Factor::linear_solver, Factor::step_factor})
+                              Factor::linear_solver, Factor::contact_stepping, Factor::step_factor})
     multiply(combinations, study, factor);
   return combinations;
 }
@@ -80,6 +80,8 @@ public:
       return set("Contact", "Penalty factor", value);
     case Factor::linear_solver:
       return set("Quasi-static", "Linear solver", value);
+    case Factor::contact_stepping:
+      return set("Explicit", "Contact stepping", value);
     case Factor::step_factor:
       return shorten_step(parse_number(value).value());
     }
@@ -162,6 +164,8 @@ std::string factor_name(const Factor factor)
     return "alpha";
   case Factor::linear_solver:
     return "solver";
+  case Factor::contact_stepping:
+    return "contact";
   default:
     return "step";
   }

@@ -54,6 +54,11 @@ protected:
   }
 };
 
+/// Laws of implicit steps.
+class StepLaws : public SurfaceLaws
+{
+};
+
 struct NameCase
 {
   std::string operator()(const testing::TestParamInfo<Case> &info) const { return name(info.param); }

@@ -27,6 +27,12 @@ public:
   /// Global degrees of freedom of a node.
   const NodeDofs &node_dofs(unsigned int node) const { return dofs[node]; }
 
+  /// The nodes that a node hangs between, with their weights; itself where it does not hang.
+  const std::vector<std::pair<unsigned int, double>> &masters(unsigned int node) const
+  {
+    return node_masters[node];
+  }
+
   /// Those of several nodes, one after the other.
   std::vector<dealii::types::global_dof_index> collect_dofs(const std::vector<unsigned int> &nodes) const;
 
@@ -48,10 +54,12 @@ protected:
 
 private:
   void gather_constraints();
+  void find_masters();
 
   std::vector<NodeDofs> dofs;
   std::vector<std::pair<unsigned int, std::array<unsigned int, dim>>> owned_nodes; ///< node, local indices
   std::vector<typename dealii::AffineConstraints<double>::ConstraintLine> lines;
+  std::vector<std::vector<std::pair<unsigned int, double>>> node_masters;
   dealii::IndexSet all_relevant_dofs;
 };
 

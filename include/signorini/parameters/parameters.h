@@ -201,13 +201,37 @@ struct QuasiStaticParameters
 /// `subsection Explicit`.
 struct ExplicitParameters
 {
+  enum class ContactStepping
+  {
+    explicit_forces, ///< of the positions at the start of a step
+    implicit_forces  ///< of those at its end, found on the nodes near contact
+  };
   double end_time = 1.;          ///< [s]
   double bulk_step_factor = 0.9; ///< share of the linear stability bound of the bodies
   double contact_step_factor =
       0.5; ///< share of the bound with contact springs: unilateral contact needs less than 1
+  ContactStepping contact_stepping = ContactStepping::explicit_forces;
   double ledger_tolerance =
       0.05; ///< stop when the energy ledger is open by more, relative to the largest energy
 };
+
+/// `subsection Implicit`.
+struct ImplicitParameters
+{
+  using LinearSolver = QuasiStaticParameters::LinearSolver;
+  double end_time = 1.;             ///< [s]
+  double time_step = 0.;            ///< the longest [s]
+  unsigned int max_bisections = 12; ///< of a step
+  double step_tolerance = 0.;       ///< largest unsteadiness of a step, 0: any
+  double tolerance = 1e-9;          ///< relative residual force of every body
+  unsigned int max_iterations = 50; ///< of Newton in one step
+  double ledger_tolerance =
+      0.05; ///< stop when the energy ledger is open by more, relative to the largest energy
+  LinearSolver linear_solver = LinearSolver::automatic;
+};
+
+/// The solvers of a run.
+using SolverParameters = std::variant<QuasiStaticParameters, ExplicitParameters, ImplicitParameters>;
 
 /// `subsection Exact solution`: what the run is measured against.
 struct ExactSolutionParameters
@@ -250,6 +274,7 @@ struct StudyParameters
     potential,
     penalty_factor,
     linear_solver,
+    contact_stepping,
     step_factor ///< multiplies both step factors of `Explicit`
   };
   std::map<Factor, std::vector<std::string>> values; ///< as in the file; absent: the file's own value
@@ -268,7 +293,7 @@ struct Parameters
   std::vector<BodyParameters> bodies;
   std::vector<ObstacleParameters> obstacles;
   std::optional<ContactParameters> contact;
-  std::variant<QuasiStaticParameters, ExplicitParameters> solver;
+  SolverParameters solver;
   std::optional<AdaptivityParameters> adaptivity;
   std::optional<ExactSolutionParameters> exact_solution;
   std::optional<StudyParameters> study;

@@ -9,12 +9,14 @@
 
 namespace signorini
 {
-/// Declare `Quasi-static` and `Explicit`.
+/// Declare `Quasi-static`, `Explicit` and `Implicit`.
 void declare_solver(Declarations &declarations, const DeclarationScope &scope);
 
-/// Read the one of them that is present; throws InputError if it is none or both.
-std::variant<QuasiStaticParameters, ExplicitParameters> read_solver(const ParameterText &text,
-                                                                    const Declarations &in_use);
+/// The subsection of a run's kind.
+std::string name_of(const SolverParameters &solver);
+
+/// Read the one of them that is present; throws InputError if it is none or several.
+SolverParameters read_solver(const ParameterText &text, const Declarations &in_use);
 
 /// Declare `Adaptivity`.
 void declare_adaptivity(Declarations &declarations, const DeclarationScope &scope);

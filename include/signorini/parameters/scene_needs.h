@@ -27,7 +27,7 @@ struct SceneNeed
 /// Needs by the names they are listed with.
 SceneNeed dimension_equal_to(unsigned int dimension);
 SceneNeed quasi_static_run();
-SceneNeed explicit_run();
+SceneNeed run_in_motion();
 SceneNeed contact();
 /// Pressures of all contact are known.
 SceneNeed surface_potential();

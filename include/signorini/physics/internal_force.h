@@ -19,6 +19,11 @@ public:
   InternalForce(const std::vector<MaterialParameters> &materials, const Discretization<dim> &discretization);
 
   void update(const State &state) override;
+
+  /// From the next update() on everything speaks of the middle between `start` and the present displacement,
+  /// and the energy is twice that of the middle: its gradient by the present displacement is the force there.
+  /// Null: of the present displacement again. `start` must outlive its use.
+  void set_step_start(const Vector *start) { step_start = start; }
   double energy() const override;
   void add_force(Vector &force) const override;
   void add_tangent(TangentSystem &system) const override;
@@ -50,7 +55,9 @@ private:
   void for_each_cell(const Action &action) const;
 
   const Discretization<dim> *discretization;
-  const Vector *displacement = nullptr;
+  const Vector *displacement = nullptr; ///< that everything speaks of
+  const Vector *step_start = nullptr;
+  Vector middle;                       ///< of the step
   std::vector<double> moduli;          ///< of compression without widening, κ + 4μ/3, one a body [Pa]
   mutable std::vector<Kernel> kernels; ///< one a body; mutable for their scratch memory
 };

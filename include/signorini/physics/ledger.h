@@ -6,8 +6,8 @@
 namespace signorini
 {
 /// Where the energy of a run is, and what crossed its border [J; J/m in 2-D]. It closes when
-/// kinetic + elastic + contact + dissipated − (work of loads and supports) − (renewals and adaptation) stays
-/// at its first value.
+/// kinetic + elastic + contact + dissipated + contact loss − (work of loads and supports) − (renewals and
+/// adaptation) stays at its first value.
 struct EnergyLedger
 {
   double kinetic = 0.;
@@ -18,6 +18,7 @@ struct EnergyLedger
   double work_of_supports = 0.; ///< since the start
   double contact_renewals =
       0.; ///< stored energy that came with renewed contact stiffnesses or points, since the start
+  double contact_loss = 0.;   ///< taken by implicit steps of contact, since the start
   double adaptation = 0.;     ///< by which the sum of the first three jumped with the mesh, since the start
   double max_adaptation = 0.; ///< largest of these jumps, without its sign
   double initial = 0.;        ///< kinetic + elastic + contact at the start

@@ -15,6 +15,7 @@
 #include "signorini/parameters/parameter_text.h"
 #include "signorini/simulation/progress.h"
 #include "signorini/solvers/explicit_solver.h"
+#include "signorini/solvers/implicit_solver.h"
 #include "signorini/solvers/quasi_static_solver.h"
 
 #include <functional>
@@ -53,6 +54,11 @@ private:
 
   void run_quasi_static();
   void run_explicit(const ExplicitParameters &solver_parameters);
+  void run_implicit(const ImplicitParameters &solver_parameters);
+  /// Returns why the step failed or must be shorter, with the state as it was.
+  std::optional<Complaint> make_implicit_step(double time_step, bool may_be_unsteady);
+  /// Whether there is inertia.
+  bool is_in_motion() const { return !std::holds_alternative<QuasiStaticParameters>(parameters.solver); }
   /// Returns why there is none, with the state as it was.
   std::optional<Complaint> solve_load_step(double time);
   /// The parts of solve_load_step(); they return why they failed.
@@ -60,10 +66,16 @@ private:
   std::optional<Complaint> correct_contact(double time);
   std::optional<Complaint> choose_penalty_factor(double time);
   void set_penalty_factor(double penalty_factor);
-  /// The next step: the largest that is stable, less where the end is near.
+  /// The next of equal steps to the end, as few as are stable.
   double next_time_step(double end_time) const;
-  void record_explicit(double time_step, double end_time);
+  /// Takes down the first row and fields of a run in motion.
+  void begin_records(MotionSolver<dim> &solver, double end_time);
+  /// Rows and fields are written by the first step that reaches their time: outputs do not shape the steps.
+  void record_when_due(MotionSolver<dim> &solver, double time_step, double end_time);
+  void record_motion(const MotionSolver<dim> &solver, double time_step, double end_time);
   void make_explicit_solver();
+  /// Whether the contact forces of every step are solved for.
+  bool has_implicit_contact() const;
   /// Shares an adapted mesh out by the work of its cells, and builds what stands on it anew, where that pays.
   void balance_work(const std::vector<Vector *> &values);
   bool is_adaptation_due(double time_step) const;
@@ -80,8 +92,9 @@ private:
   void adapt_mesh();
   void make_quasi_static_solver();
   void say_equilibrium(double end_time);
-  /// Throws NumericalError if points could jump over what they ought to touch in an explicit step.
-  void check_motion(double time_step) const;
+  /// The part of a step in which points cannot jump over what they ought to touch. Throws NumericalError
+  /// where hardly anything is left of it.
+  double limit_time_step(double time_step) const;
   /// Of each term of contact.
   using MeasuresOfTerms = std::vector<contact::ContactMeasures<dim>>;
   /// Whether points are so deep that they could pass through.
@@ -145,9 +158,12 @@ private:
   std::unique_ptr<ContactCorrection<dim>> correction;          ///< null unless the file asks for it
   std::unique_ptr<QuasiStaticSolver<dim>> quasi_static_solver; ///< quasi-static runs
   std::unique_ptr<ExplicitSolver<dim>> explicit_solver;        ///< explicit runs
+  std::unique_ptr<ImplicitSolver<dim>> implicit_solver;        ///< implicit runs
   std::unique_ptr<FileLevels<dim>> file_levels;                ///< explicit runs with adaptivity
-  unsigned int next_adaptation_step = 0; ///< explicit runs: the mesh is adapted before this step,
-  double next_adaptation_time = 0.;      ///< and before this time, to which contact has been foreseen [s]
+  unsigned int next_adaptation_step = 0;     ///< explicit runs: the mesh is adapted before this step,
+  double next_adaptation_time = 0.;          ///< and before this time, to which contact has been foreseen [s]
+  unsigned int next_row = 1, next_field = 1; ///< runs in motion: of those that 'Output' asks for
+  double time_of_fields = 0.;                ///< runs in motion: at which the last ones were written [s]
   std::unique_ptr<Fields<dim>> fields;
   std::unique_ptr<Statistics> statistics; ///< on rank 0
   Results<dim> results;

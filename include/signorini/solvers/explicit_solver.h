@@ -4,9 +4,10 @@
 #include "signorini/base/run_time.h"
 #include "signorini/discretization/supports.h"
 #include "signorini/physics/internal_force.h"
-#include "signorini/physics/ledger.h"
 #include "signorini/physics/momentum.h"
 #include "signorini/solvers/critical_step.h"
+#include "signorini/solvers/implicit_contact.h"
+#include "signorini/solvers/motion_solver.h"
 #include "signorini/solvers/scene_forces.h"
 
 namespace signorini
@@ -18,8 +19,13 @@ namespace signorini
 ///
 /// Every force is booked: works and impulses by the trapezoidal rule, which is exact for momenta in this
 /// scheme.
+///
+/// With implicit contact f is that of the bodies and loads alone, contact moves u_(n+1) and v_(n+1/2)
+/// (ImplicitContact), and the kinetic energy is the one of the scheme, ½ v_n·M v_n − Δt²/8 f_n·M⁻¹ f_n.
+/// Outside of step(), velocities contain half a step of the last contact forces, which stands for the half of
+/// the next step that has begun: so a body at rest under a load has none.
 template <int dim>
-class ExplicitSolver
+class ExplicitSolver : public MotionSolver<dim>
 {
 public:
   /// The arguments must outlive this object.
@@ -40,13 +46,15 @@ public:
 
   void step(double time_step, State &state);
 
-  /// Brings the energies and momenta of the ledgers up to the present state.
-  void take_stock(const State &state);
+  /// Takes the half step of contact forces out of the velocities again, before the mesh changes.
+  void suspend(State &state);
 
-  const EnergyLedger &energy() const { return energy_ledger; }
-  const MomentumLedger &momentum() const { return momentum_ledger; }
+  void take_stock(const State &state) override;
 
 private:
+  using MotionSolver<dim>::energy_ledger;
+  using MotionSolver<dim>::momentum_ledger;
+
   /// Computes the first forces and the energies and momenta with them.
   void begin(State &state);
   void update_bulk_bound();
@@ -57,6 +65,8 @@ private:
   void compute_load_forces(const State &state);
   void book_step(const State &state, double time_step);
   void book_supports(const State &state, double time_step);
+  void move_by_contact(double time_step, State &state);
+  void add_half_step_of_contact(State &state);
 
   const Discretization<dim> *discretization;
   const SupportedDofs<dim> *supports;
@@ -69,6 +79,9 @@ private:
   Vector force, load_force, damping_force, one_damping_force, external_force;
   Vector old_force, old_load_force, old_damping_force;
   Vector old_displacement, old_velocity, increment;
+  std::unique_ptr<ImplicitContact<dim>> implicit_contact; ///< null where contact is explicit or there is none
+  Vector half_step_of_contact;                            ///< that is in the velocities [m/s]
+  double last_time_step = 0.;                             ///< [s]
   std::vector<double> half_velocity_of_supports;
   std::vector<unsigned int> dofs_of_supported_nodes; ///< local indices, free components included
   VectorAndMoment external, old_external;
@@ -78,7 +91,5 @@ private:
   unsigned int n_steps = 0;
   mutable ContactBound contact_bound;
   mutable unsigned int n_searches_of_bound = 0;
-  EnergyLedger energy_ledger;
-  MomentumLedger momentum_ledger;
 };
 } // namespace signorini

@@ -92,6 +92,8 @@ ContactForce<dim>::ContactForce(const std::string &term_name, bool is_an_externa
 template <int dim>
 double ContactForce<dim>::renew(const State &state)
 {
+  if (is_frozen)
+    return 0.;
   return dealii::Utilities::MPI::sum(potential.update(map->positions(state.displacement)),
                                      this->communicator);
 }
@@ -99,7 +101,14 @@ double ContactForce<dim>::renew(const State &state)
 template <int dim>
 void ContactForce<dim>::update(const State &state)
 {
-  const std::vector<SpatialVector<dim>> x = map->positions(state.displacement);
+  std::vector<SpatialVector<dim>> x = map->positions(state.displacement);
+  if (is_frozen)
+  {
+    for (unsigned int node = 0; node < x.size(); ++node)
+      x[node] -= potential.positions()[node];
+    potential.follow(x, 0.);
+    return;
+  }
   if (potential.is_stale(x))
     potential.update(x);
   potential.evaluate(x);
@@ -126,6 +135,34 @@ double ContactForce<dim>::add_damping_force(const Vector &velocity, Vector &forc
   const double power = potential.add_damping_forces(map->gather(velocity), nodal);
   map->add_to_owners(nodal, force);
   return dealii::Utilities::MPI::sum(power, this->communicator);
+}
+
+template <int dim>
+void ContactForce<dim>::linearize(const Vector &start_displacement)
+{
+  potential.linearize(map->positions(start_displacement));
+}
+
+template <int dim>
+void ContactForce<dim>::freeze(const Vector &start)
+{
+  linearize(start);
+  is_frozen = true;
+}
+
+template <int dim>
+void ContactForce<dim>::add_points(double least, contact::ContactProblem<dim> &problem) const
+{
+  typename contact::ContactProblem<dim>::Weights weights;
+  potential.for_each_linear_point(least,
+                                  [&](const contact::LinearPoint<dim> &point)
+                                  {
+                                    weights.clear();
+                                    for (unsigned int a = 0; a < point.stencil.n_nodes; ++a)
+                                      for (const auto &[node, share] : map->masters(point.stencil.node[a]))
+                                        weights.emplace_back(node, share * point.stencil.weight[a]);
+                                    problem.add(point, weights);
+                                  });
 }
 
 template <int dim>

@@ -66,6 +66,7 @@ void ContactPotential<dim>::evaluate(const Positions &positions)
   if (is_evaluated && positions == evaluated_positions)
     return;
   evaluated_positions = positions;
+  start_depths.clear();
   evaluate_body_pairs();
   evaluate_obstacle_pairs();
   is_evaluated = true;
@@ -174,6 +175,9 @@ template <int dim>
 double ContactPotential<dim>::depth_rate(const NearPair &near,
                                          const std::vector<SpatialVector<dim>> &velocities) const
 {
+  // In an implicit step only the part of the way on which the point touches counts.
+  if (is_linear())
+    return (near.foot.depth - std::max(start_depths[near.index], 0.)) / linear_time_step;
   SpatialVector<dim> gap_rate = SpatialVector<dim>::Zero();
   for (unsigned int a = 0; a < near.stencil.n_nodes; ++a)
     gap_rate += near.stencil.weight[a] * velocities[near.stencil.node[a]];
@@ -219,12 +223,15 @@ void ContactPotential<dim>::for_each_tangent(
       [&](const NearPair &near)
       {
         nodes.assign(near.stencil.node.begin(), near.stencil.node.begin() + near.stencil.n_nodes);
-        if (near.target != nullptr)
+        if (is_linear())
+          compute_obstacle_tangent(near.pair, near.foot, near.stencil,
+                                   SpatialTensor<dim>(SpatialTensor<dim>::Zero()), block);
+        else if (near.target != nullptr)
           compute_body_tangent(near.pair, near.foot, near.stencil,
                                gather_nodes(*near.target, evaluated_positions), block);
         else
           compute_obstacle_tangent(near.pair, near.foot, near.stencil,
-                                   obstacle_hessians[&near.foot - obstacle_feet.data()], block);
+                                   obstacle_hessians[near.index - body_feet.size()], block);
         add(nodes, block);
       });
 }

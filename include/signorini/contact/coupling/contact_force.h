@@ -3,6 +3,7 @@
 
 #include "signorini/contact/coupling/contact_term.h"
 #include "signorini/contact/potential/contact_potential.h"
+#include "signorini/contact/potential/contact_problem.h"
 #include "signorini/discretization/surface_map.h"
 #include "signorini/physics/force_term.h"
 
@@ -32,6 +33,23 @@ public:
 
   /// Adds the damping forces at the given velocities; returns the power dissipated by all ranks [W].
   double add_damping_force(const Vector &velocity, Vector &force) const;
+
+  /// See ContactPotential::linearize(); after update().
+  void linearize(const Vector &start_displacement);
+
+  /// Adds the points of this rank that overlap by more than `least` [m], on nodes that do not hang.
+  void add_points(double least, contact::ContactProblem<dim> &problem) const;
+
+  /// See ContactPotential::follow().
+  void follow(const std::vector<SpatialVector<dim>> &increments, double time_step)
+  {
+    potential.follow(increments, time_step);
+  }
+
+  /// Holds the points, feet and normals of the last update, acting where they are at `start`, and takes the
+  /// depths of later states as linear functions of the displacement, until thaw().
+  void freeze(const Vector &start);
+  void thaw() { is_frozen = false; }
 
   const NodeMap<dim> &nodes() const override { return *map; }
   void add_row_sum_bounds(Vector &stiffness, Vector &damping) const override;
@@ -80,5 +98,6 @@ private:
 
   const SurfaceMap<dim> *map;
   contact::ContactPotential<dim> potential;
+  bool is_frozen = false;
 };
 } // namespace signorini

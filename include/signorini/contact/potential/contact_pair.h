@@ -57,4 +57,17 @@ struct PairStencil
     }
   }
 };
+
+/// A point whose depth is taken for a linear function of the nodes' positions.
+template <int dim>
+struct LinearPoint
+{
+  const PairStencil<dim> &stencil;
+  const SpatialVector<dim> &normal; ///< the depth falls by normal·Σ_a B_a Δx_a
+  double depth = 0.;                ///< [m]
+  double area = 0.;                 ///< [m²; m in 2-D]
+  double stiffness = 0.;            ///< k_A [Pa/m]
+  double damping = 0.;              ///< c_A [Pa s/m]
+  double start_depth = 0.;          ///< at the start of the step [m]
+};
 } // namespace signorini::contact

@@ -105,8 +105,24 @@ public:
 
   const PairList<dim> &pair_list() const { return pairs; }
 
+  /// Of the last evaluation, and where follow() went since [m].
+  const Positions &positions() const { return evaluated_positions; }
+
   /// All points in contact or less than a skin away whose facet faces the other surface.
   std::vector<ContactSample<dim>> samples() const;
+
+  /// For a step that starts at the positions `start`, ends near those of the last evaluation and gets the
+  /// contact forces in between (doc/theory.md, section 7): lets every target take them at the point that the
+  /// contactor's point was at `start`, so that they have no moment about these positions. Afterwards all of
+  /// the above speaks of the depths as linear functions of the nodes' positions, until the next evaluation.
+  void linearize(const Positions &start);
+
+  /// Calls `visit` for all points of the linear depths that overlap by more than `least` [m].
+  void for_each_linear_point(double least, const std::function<void(const LinearPoint<dim> &)> &visit) const;
+
+  /// Moves the nodes on by `increments` [m], to the end of a step of that length [s]. Damping is from here on
+  /// that of the step, whatever the velocities.
+  void follow(const Positions &increments, double time_step);
 
 private:
   using ObstacleFoot = typename Obstacle<dim>::Foot;
@@ -117,6 +133,7 @@ private:
     const ContactPair<dim> &pair;
     const PairFoot<dim> &foot;
     const Facet<dim> *target;
+    std::size_t index; ///< among all pairs, those of bodies first
     PairStencil<dim> stencil;
 
     double overlap() const { return foot.depth + pair.offset; }
@@ -128,21 +145,22 @@ private:
   template <typename Visit>
   void for_each_overlap_above(double least, const Visit &visit) const
   {
-    const auto visit_all = [&](const auto &list, const auto &feet, bool has_target_facet)
+    const auto visit_all = [&](const auto &list, const auto &feet, std::size_t first, bool has_target_facet)
     {
       for (std::size_t i = 0; i < feet.size(); ++i)
       {
         if (!(feet[i].depth + list[i].offset > least))
           continue;
-        NearPair near{list[i], feet[i], has_target_facet ? &surface.facets[feet[i].facet] : nullptr, {}};
+        NearPair near{
+            list[i], feet[i], has_target_facet ? &surface.facets[feet[i].facet] : nullptr, first + i, {}};
         near.stencil.add(surface.facets[list[i].facet], list[i].shape, 1.);
         if (has_target_facet)
           near.stencil.add(*near.target, feet[i].shape, -1.);
         visit(near);
       }
     };
-    visit_all(pairs.body_pairs(), body_feet, true);
-    visit_all(pairs.obstacle_pairs(), obstacle_feet, false);
+    visit_all(pairs.body_pairs(), body_feet, 0, true);
+    visit_all(pairs.obstacle_pairs(), obstacle_feet, body_feet.size(), false);
   }
 
   void evaluate_body_pairs();
@@ -151,6 +169,10 @@ private:
   double depth_rate(const NearPair &near, const std::vector<SpatialVector<dim>> &velocities) const;
   double damping_pressure(const NearPair &near, double depth_rate) const;
   void add_to_measures(const NearPair &near, ContactMeasures<dim> &measures) const;
+
+  bool is_linear() const { return !start_depths.empty(); }
+  /// The shape functions of the foot moved so that it lies below or above the point at `start`.
+  void shift_action(const ContactPair<dim> &pair, const Positions &start, PairFoot<dim> &foot) const;
 
   const ContactSurface<dim> &surface;
   PairList<dim> pairs;
@@ -161,6 +183,9 @@ private:
   std::vector<PairFoot<dim>> body_feet;              ///< one a body pair
   std::vector<PairFoot<dim>> obstacle_feet;          ///< one an obstacle pair
   std::vector<SpatialTensor<dim>> obstacle_hessians; ///< of the depth, one an obstacle pair
+
+  std::vector<double> start_depths; ///< in implicit steps: at the start, body pairs first [m]
+  double linear_time_step = 0.;     ///< of the last follow() [s]
 
   // Reused from obstacle to obstacle.
   Positions obstacle_points;

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include "signorini/contact/coupling/contact_force.h"
+#include "signorini/discretization/supports.h"
+#include "signorini/physics/momentum.h"
+
+#include <memory>
+#include <vector>
+
+namespace signorini
+{
+/// The contact forces of an explicit step, found implicitly: from the positions that a step without contact
+/// leads to, those increments δ of the nodes near contact that the forces at the end of the step give their
+/// masses (contact::ContactProblem). The step is then as long as the bodies allow, whatever the penalty; the
+/// surface takes the energy of what bounces within a step out of the motion, which is booked.
+///
+/// Momenta are exact: forces of a pair are equal and opposite and have no moment about the positions at the
+/// start of the step, where they act (doc/theory.md, section 7).
+template <int dim>
+class ImplicitContact
+{
+public:
+  using Terms = std::vector<std::shared_ptr<ContactForce<dim>>>;
+
+  /// What a step did besides moving the nodes.
+  struct Booking
+  {
+    double loss = 0.;              ///< energy that the step took out of motion and contact [J]
+    double dissipated = 0.;        ///< by the damping [J]
+    VectorAndMoment outer_impulse; ///< of obstacles, about the start of the step [N s]
+  };
+
+  /// `mass` is the lumped one. The arguments must outlive this object.
+  ImplicitContact(const Discretization<dim> &discretization, const SupportedDofs<dim> &supports,
+                  const Terms &terms, const Vector &mass);
+
+  /// Takes the energy of the contact at the last update of the terms for that of the start (collective).
+  void start();
+
+  /// Moves `state`, where a step of this length from `start` without contact forces has led, to where it
+  /// leads with them. `other_force`: on the nodes at the start of the step, without contact. Throws
+  /// NumericalError.
+  Booking move(const Vector &start, double time_step, const Vector &other_force, State &state);
+
+  /// Forces of the last move, damping included, on all nodes [N].
+  const Vector &force() const { return total_force; }
+
+  /// Energy in the springs at the end of the last move [J].
+  double energy() const { return stored; }
+
+private:
+  std::vector<SpatialVector<dim>> find_increments(double least, double time_step) const;
+  void compute_forces();
+
+  const Discretization<dim> *discretization;
+  const Terms *terms;
+  const NodeMap<dim> *map;
+  Vector inverse_mass; ///< 0 where a support holds or a node hangs
+  std::vector<SpatialVector<dim>> surface_masses;
+  Vector spring_force, damping_force, total_force, outer_force;
+  double stored = 0.;
+};
+} // namespace signorini

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// A ContactPotential whose depths are linear functions of the nodes' positions, for an implicit step.
+#include "signorini/contact/potential/contact_potential.h"
+
+#include <Eigen/LU>
+
+#include <algorithm>
+#include <cmath>
+
+namespace signorini::contact
+{
+namespace
+{
+template <int dim>
+SpatialVector<dim> weigh(const PairStencil<dim> &stencil, const std::vector<SpatialVector<dim>> &nodal)
+{
+  SpatialVector<dim> sum = SpatialVector<dim>::Zero();
+  for (unsigned int a = 0; a < stencil.n_nodes; ++a)
+    sum += stencil.weight[a] * nodal[stencil.node[a]];
+  return sum;
+}
+} // namespace
+
+template <int dim>
+void ContactPotential<dim>::shift_action(const ContactPair<dim> &pair, const Positions &start,
+                                         PairFoot<dim> &foot) const
+{
+  // N_b + N_b,α Δξ_α with the Δξ that takes the foot at `start` to the line along the normal through the
+  // contactor's point there.
+  constexpr double least_slope = 1e-3;
+  const Facet<dim> &target = surface.facets[foot.facet];
+  const FacetShape<dim> shape = evaluate_facet_shape(target, foot.closest.xi);
+  const FacetFrame<dim> frame = evaluate_facet_frame(gather_nodes(target, start), foot.closest.xi);
+  SpatialTensor<dim> axes;
+  double volume = 1.;
+  for (unsigned int i = 0; i < dim - 1; ++i)
+  {
+    axes.col(i) = frame.tangent[i];
+    volume *= frame.tangent[i].norm();
+  }
+  axes.col(dim - 1) = foot.normal;
+  if (!(std::abs(axes.determinant()) > least_slope * volume))
+    return; // beside the facet: no line along the normal meets its plane
+  const SpatialVector<dim> offset =
+      interpolate(surface.facets[pair.facet], pair.shape, start) - frame.position;
+  const SpatialVector<dim> shift = axes.inverse() * offset;
+  for (unsigned int b = 0; b < shape.n_nodes; ++b)
+    for (unsigned int i = 0; i < dim - 1; ++i)
+      foot.shape[b] += shape.first[b][i] * shift[i];
+}
+
+template <int dim>
+void ContactPotential<dim>::linearize(const Positions &start)
+{
+  start_depths.assign(body_feet.size() + obstacle_feet.size(), 0.);
+  is_evaluated = false;
+  for (std::size_t i = 0; i < body_feet.size(); ++i)
+    if (std::isfinite(body_feet[i].depth))
+      shift_action(pairs.body_pairs()[i], start, body_feet[i]);
+  Positions motion = evaluated_positions;
+  for (std::size_t node = 0; node < motion.size(); ++node)
+    motion[node] -= start[node];
+  for_each_overlap_above(
+      std::numeric_limits<double>::lowest(), [&](const NearPair &near)
+      { start_depths[near.index] = near.foot.depth + near.foot.normal.dot(weigh(near.stencil, motion)); });
+}
+
+template <int dim>
+void ContactPotential<dim>::for_each_linear_point(
+    double least, const std::function<void(const LinearPoint<dim> &)> &visit) const
+{
+  for_each_overlap_above(least,
+                         [&](const NearPair &near)
+                         {
+                           visit({near.stencil, near.foot.normal, near.foot.depth, near.pair.area,
+                                  near.pair.stiffness, near.pair.damping, start_depths[near.index]});
+                         });
+}
+
+template <int dim>
+void ContactPotential<dim>::follow(const Positions &increments, double time_step)
+{
+  linear_time_step = time_step;
+  for (std::size_t node = 0; node < evaluated_positions.size(); ++node)
+    evaluated_positions[node] += increments[node];
+  for_each_overlap_above(
+      std::numeric_limits<double>::lowest(),
+      [&](const NearPair &near)
+      {
+        const auto i = static_cast<std::size_t>(near.index);
+        PairFoot<dim> &foot = i < body_feet.size() ? body_feet[i] : obstacle_feet[i - body_feet.size()];
+        foot.depth -= foot.normal.dot(weigh(near.stencil, increments));
+        foot.gap = -foot.depth * foot.normal;
+        foot.position = interpolate(surface.facets[near.pair.facet], near.pair.shape, evaluated_positions);
+      });
+}
+
+template class ContactPotential<2>;
+template class ContactPotential<3>;
+} // namespace signorini::contact

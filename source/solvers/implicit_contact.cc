@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "signorini/solvers/implicit_contact.h"
+
+#include "signorini/base/exceptions.h"
+
+#include <fmt/core.h>
+
+#include <limits>
+
+namespace signorini
+{
+template <int dim>
+ImplicitContact<dim>::ImplicitContact(const Discretization<dim> &the_discretization,
+                                      const SupportedDofs<dim> &supports, const Terms &contact_terms,
+                                      const Vector &mass)
+    : discretization(&the_discretization), terms(&contact_terms), map(&contact_terms.front()->nodes()),
+      inverse_mass(the_discretization.make_vector())
+{
+  Vector masses = mass;
+  for (const unsigned int dof : supports.owned_dofs())
+    masses.local_element(dof) = std::numeric_limits<double>::infinity();
+  surface_masses = map->gather(masses);
+  for (unsigned int i = 0; i < masses.locally_owned_size(); ++i)
+    if (masses.local_element(i) > 0.)
+      inverse_mass.local_element(i) = 1. / masses.local_element(i);
+  for (Vector *vector : {&spring_force, &damping_force, &total_force, &outer_force})
+    *vector = discretization->make_vector();
+}
+
+template <int dim>
+void ImplicitContact<dim>::start()
+{
+  stored = 0.;
+  for (const auto &term : *terms)
+    stored += term->energy();
+}
+
+template <int dim>
+std::vector<SpatialVector<dim>> ImplicitContact<dim>::find_increments(double least, double time_step) const
+{
+  contact::ContactProblem<dim> own(surface_masses, time_step), whole(surface_masses, time_step);
+  for (const auto &term : *terms)
+    term->add_points(least, own);
+  const MPI_Comm &communicator = discretization->communicator();
+  const bool is_shared = dealii::Utilities::MPI::n_mpi_processes(communicator) > 1;
+  // The same problem on every rank, point by point in the order of the ranks: all find the same increments.
+  if (is_shared)
+    for (const std::vector<double> &packed : dealii::Utilities::MPI::all_gather(communicator, own.pack()))
+      whole.add_packed(packed);
+  contact::ContactProblem<dim> &problem = is_shared ? whole : own;
+  auto increments = problem.solve();
+  if (!increments)
+    throw NumericalError(Complaint("the contact forces of a time step were not found")
+                             .found(fmt::format("{} points near contact, {} iterations", problem.n_points(),
+                                                problem.n_iterations()))
+                             .advise("lower Explicit/Bulk step factor or Contact/Penalty factor, or refine"));
+  for (unsigned int node = 0; node < map->n_nodes(); ++node)
+    if (const auto &masters = map->masters(node); masters.size() > 1)
+    {
+      (*increments)[node].setZero();
+      for (const auto &[master, weight] : masters)
+        (*increments)[node] += weight * (*increments)[master];
+    }
+  return *increments;
+}
+
+template <int dim>
+void ImplicitContact<dim>::compute_forces()
+{
+  Vector one = discretization->make_vector(), no_velocity = one;
+  for (Vector *vector : {&spring_force, &damping_force, &outer_force})
+    *vector = 0.;
+  stored = 0.;
+  for (const auto &term : *terms)
+  {
+    stored += term->energy();
+    one = 0.;
+    term->add_force(one);
+    spring_force += one;
+    if (term->is_external)
+      outer_force += one;
+    one = 0.;
+    term->add_damping_force(no_velocity, one);
+    damping_force += one;
+    if (term->is_external)
+      outer_force += one;
+  }
+  for (Vector *vector : {&spring_force, &damping_force, &outer_force})
+    discretization->collect(*vector);
+  total_force = spring_force;
+  total_force += damping_force;
+}
+
+template <int dim>
+auto ImplicitContact<dim>::move(const Vector &start, double time_step, const Vector &other_force,
+                                State &state) -> Booking
+{
+  const double reach = 2. * time_step * state.velocity.linfty_norm();
+  for (const auto &term : *terms)
+  {
+    term->renew(state);
+    term->update(state);
+    term->linearize(start);
+  }
+  const std::vector<SpatialVector<dim>> increments = find_increments(-reach, time_step);
+  for (const auto &term : *terms)
+    term->follow(increments, time_step);
+  const double stored_before = stored;
+  compute_forces();
+
+  Booking booking;
+  double gain = 0.; // of kinetic energy and of the other forces' work, see doc/theory.md
+  for (unsigned int i = 0; i < inverse_mass.locally_owned_size(); ++i)
+  {
+    const double change = time_step * inverse_mass.local_element(i) * total_force.local_element(i);
+    gain += 0.5 * time_step * change * (total_force.local_element(i) + other_force.local_element(i));
+    state.velocity.local_element(i) += change;
+    state.displacement.local_element(i) += time_step * change;
+  }
+  discretization->distribute(state.velocity);
+  discretization->distribute(state.displacement);
+  Vector way = state.displacement;
+  way -= start;
+  booking.dissipated = -(damping_force * way);
+  booking.loss = dealii::Utilities::MPI::sum(gain, discretization->communicator()) - spring_force * way -
+                 (stored - stored_before);
+  booking.outer_impulse = sum_over_nodes(*discretization, start, outer_force);
+  for (unsigned int d = 0; d < 3; ++d)
+  {
+    booking.outer_impulse.vector[d] *= time_step;
+    booking.outer_impulse.moment[d] *= time_step;
+  }
+  return booking;
+}
+
+template class ImplicitContact<2>;
+template class ImplicitContact<3>;
+} // namespace signorini

@@ -1,0 +1,289 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "signorini/solvers/implicit_solver.h"
+
+#include "signorini/physics/mass.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace signorini
+{
+namespace
+{
+/// Rounds in which contact settles in the middle of a step; the moments it leaves fall from each to the next.
+constexpr unsigned int n_settling_rounds = 2;
+} // namespace
+
+template <int dim>
+ImplicitSolver<dim>::ImplicitSolver(const Discretization<dim> &the_discretization,
+                                    const SupportedDofs<dim> &supported_dofs, const Scene<dim> &scene,
+                                    const SceneForces<dim> &scene_forces, const SurfaceMap<dim> *map,
+                                    const ImplicitParameters &parameters, RunTime &the_run_time)
+    : discretization(&the_discretization), supports(&supported_dofs), forces(&scene_forces),
+      run_time(&the_run_time), mass(make_lumped_mass(scene.materials, the_discretization)),
+      inertia(std::make_shared<StepInertia<dim>>(mass)),
+      impulse(std::make_shared<ConstantForce<dim>>("loads and momentum")),
+      step_forces(replace_loads(scene_forces, {inertia, impulse})),
+      newton(the_discretization, supported_dofs, scene, std::vector<bool>(scene.n_bodies(), true),
+             step_forces, map, make_newton_parameters(parameters), the_run_time)
+{
+  for (Vector *vector :
+       {&load_force, &inner_force, &contact_force, &outer_contact_force, &change, &accepted_change})
+    *vector = discretization->make_vector();
+}
+
+template <int dim>
+SceneForces<dim> ImplicitSolver<dim>::replace_loads(SceneForces<dim> forces,
+                                                    std::vector<std::shared_ptr<ForceTerm>> loads)
+{
+  forces.loads = std::move(loads);
+  return forces;
+}
+
+template <int dim>
+QuasiStaticParameters ImplicitSolver<dim>::make_newton_parameters(const ImplicitParameters &parameters)
+{
+  QuasiStaticParameters newton_parameters;
+  newton_parameters.tolerance = parameters.tolerance;
+  newton_parameters.max_iterations = parameters.max_iterations;
+  newton_parameters.linear_solver = parameters.linear_solver;
+  return newton_parameters;
+}
+
+template <int dim>
+void ImplicitSolver<dim>::start(State &state)
+{
+  supports->impose(state.time, state.displacement);
+  discretization->distribute(state.displacement);
+  discretization->distribute(state.velocity);
+  contact_energy = 0.;
+  for (const auto &contact : forces->contacts)
+  {
+    contact->renew(state);
+    contact->update(state);
+    contact_energy += contact->energy();
+  }
+  forces->elasticity->update(state);
+  take_stock(state);
+  this->open_ledgers();
+  largest_speed = norm_by_mass(state.velocity);
+}
+
+template <int dim>
+Vector ImplicitSolver<dim>::compute_loads(const State &state) const
+{
+  Vector sum = discretization->make_vector();
+  for (const auto &load : forces->loads)
+  {
+    load->update(state);
+    load->add_force(sum);
+  }
+  discretization->collect(sum);
+  return sum;
+}
+
+template <int dim>
+double ImplicitSolver<dim>::norm_by_mass(const Vector &velocity) const
+{
+  double sum = 0.;
+  for (unsigned int i = 0; i < mass.locally_owned_size(); ++i)
+    sum += mass.local_element(i) * velocity.local_element(i) * velocity.local_element(i);
+  return std::sqrt(dealii::Utilities::MPI::sum(sum, discretization->communicator()));
+}
+
+template <int dim>
+std::optional<Complaint> ImplicitSolver<dim>::step(double step_length, State &state, const Report &report)
+{
+  before = state;
+  time_step = step_length;
+  contact_energy_before = contact_energy;
+  load_force = compute_loads(state);
+  State end = state;
+  end.time += time_step;
+  load_force += compute_loads(end);
+  load_force *= 0.5;
+
+  Vector driving = load_force;
+  for (unsigned int i = 0; i < mass.locally_owned_size(); ++i)
+    driving.local_element(i) += 2. / time_step * mass.local_element(i) * state.velocity.local_element(i);
+  inertia->set_step(before.displacement, time_step);
+  impulse->set(driving, before.displacement);
+  forces->elasticity->set_step_start(&before.displacement);
+  for (const auto &contact : forces->surface_contacts)
+    contact->thaw();
+  const bool is_solved = newton.solve(end.time, state, report) && settle_contact(state, report);
+  if (is_solved)
+  {
+    compute_forces(state);
+    compute_velocities(state);
+  }
+  forces->elasticity->set_step_start(nullptr);
+  if (is_solved)
+    return {};
+  reject(state);
+  return Complaint(newton.failure()).advise("shorten Implicit/Time step, or refine");
+}
+
+template <int dim>
+bool ImplicitSolver<dim>::settle_contact(State &state, const Report &report)
+{
+  double energy = 0.;
+  for (const auto &contact : forces->surface_contacts)
+    energy += contact->energy();
+  if (energy == 0.)
+    return true;
+  for (unsigned int round = 0; round < n_settling_rounds; ++round)
+  {
+    Vector middle = before.displacement;
+    middle += state.displacement;
+    middle *= 0.5;
+    for (const auto &contact : forces->surface_contacts)
+    {
+      contact->thaw();
+      contact->update(state);
+      contact->freeze(middle);
+    }
+    if (!newton.solve(state.time, state, report))
+      return false;
+  }
+  return true;
+}
+
+template <int dim>
+void ImplicitSolver<dim>::compute_forces(const State &state)
+{
+  inner_force = 0.;
+  forces->elasticity->update(state);
+  forces->elasticity->add_force(inner_force);
+  discretization->collect(inner_force);
+  contact_force = 0.;
+  outer_contact_force = 0.;
+  contact_energy = 0.;
+  for (const auto &contact : forces->contacts)
+  {
+    Vector force = discretization->make_vector();
+    contact->update(state);
+    contact->add_force(force);
+    contact_energy += contact->energy();
+    contact_force += force;
+    if (contact->is_external)
+      outer_contact_force += force;
+  }
+  discretization->collect(contact_force);
+  discretization->collect(outer_contact_force);
+}
+
+template <int dim>
+void ImplicitSolver<dim>::compute_velocities(State &state)
+{
+  // By the forces, which are exactly in balance, not by the displacements, which Newton's method leaves an
+  // error in.
+  change = 0.;
+  for (unsigned int i = 0; i < mass.locally_owned_size(); ++i)
+    if (mass.local_element(i) > 0.)
+      change.local_element(i) =
+          time_step / mass.local_element(i) *
+          (inner_force.local_element(i) + contact_force.local_element(i) + load_force.local_element(i));
+  for (const unsigned int i : supports->owned_dofs())
+    change.local_element(i) =
+        (state.displacement.local_element(i) - before.displacement.local_element(i)) / time_step -
+        before.velocity.local_element(i);
+  state.velocity = before.velocity;
+  state.velocity += change;
+  discretization->distribute(state.velocity);
+  Vector difference = change;
+  if (accepted_time_step > 0.)
+    difference.add(-time_step / accepted_time_step, accepted_change);
+  largest_speed = std::max(largest_speed, norm_by_mass(state.velocity));
+  change_of_rate = largest_speed > 0. ? norm_by_mass(difference) / largest_speed : 0.;
+}
+
+template <int dim>
+void ImplicitSolver<dim>::reject(State &state)
+{
+  state = before;
+  contact_energy = contact_energy_before;
+}
+
+template <int dim>
+void ImplicitSolver<dim>::accept(const State &state)
+{
+  accepted_change = change;
+  accepted_time_step = time_step;
+  Vector way = state.displacement;
+  way -= before.displacement;
+  Vector middle = before.displacement;
+  middle.add(0.5, way);
+  Vector outer_force = load_force;
+  outer_force += outer_contact_force;
+  const VectorAndMoment outer = sum_over_nodes(*discretization, middle, outer_force);
+  MomentumLedger &momentum = this->momentum_ledger;
+  for (unsigned int d = 0; d < 3; ++d)
+  {
+    momentum.linear_impulse[d] += time_step * outer.vector[d];
+    momentum.angular_impulse[d] += time_step * outer.moment[d];
+  }
+  EnergyLedger &energy = this->energy_ledger;
+  energy.work_of_loads += load_force * way;
+  energy.contact_loss -= contact_force * way + contact_energy - contact_energy_before;
+  if (!supports->entries().empty())
+    book_supports(state);
+}
+
+template <int dim>
+void ImplicitSolver<dim>::book_supports(const State &state)
+{
+  // What supported degrees of freedom changed by beyond what the other forces did came from the supports.
+  double work = 0.;
+  Vector impulses = discretization->make_vector();
+  for (const unsigned int i : supports->owned_dofs())
+  {
+    const double m = mass.local_element(i), v = state.velocity.local_element(i),
+                 v_before = before.velocity.local_element(i),
+                 way = state.displacement.local_element(i) - before.displacement.local_element(i),
+                 force = inner_force.local_element(i) + contact_force.local_element(i) +
+                         load_force.local_element(i);
+    work += 0.5 * m * (v * v - v_before * v_before) - force * way;
+    impulses.local_element(i) = m * (v - v_before) - time_step * force;
+  }
+  this->energy_ledger.work_of_supports += dealii::Utilities::MPI::sum(work, discretization->communicator());
+  Vector middle = before.displacement;
+  middle += state.displacement;
+  middle *= 0.5;
+  const VectorAndMoment sum = sum_over_nodes(*discretization, middle, impulses);
+  // Supported nodes need not move by the mean of their velocities, which turns their momentum by itself.
+  const VectorAndMoment momentum_now =
+                            sum_over_nodes(*discretization, state.displacement, state.velocity, &mass),
+                        momentum_before =
+                            sum_over_nodes(*discretization, before.displacement, before.velocity, &mass);
+  Vector velocity_change = state.velocity;
+  velocity_change -= before.velocity;
+  const VectorAndMoment of_change = sum_over_nodes(*discretization, middle, velocity_change, &mass);
+  for (unsigned int d = 0; d < 3; ++d)
+  {
+    this->momentum_ledger.linear_impulse[d] += sum.vector[d];
+    this->momentum_ledger.angular_impulse[d] +=
+        sum.moment[d] + momentum_now.moment[d] - momentum_before.moment[d] - of_change.moment[d];
+  }
+}
+
+template <int dim>
+void ImplicitSolver<dim>::take_stock(const State &state)
+{
+  EnergyLedger &energy = this->energy_ledger;
+  energy.kinetic = 0.5 * std::pow(norm_by_mass(state.velocity), 2);
+  forces->elasticity->update(state);
+  energy.elastic = forces->elasticity->energy();
+  energy.contact = contact_energy;
+  energy.note_scale();
+  const VectorAndMoment sum = sum_over_nodes(*discretization, state.displacement, state.velocity, &mass);
+  MomentumLedger &momentum = this->momentum_ledger;
+  momentum.linear = sum.vector;
+  momentum.angular = sum.moment;
+  momentum.linear_scale = std::max(momentum.linear_scale, sum.vector_scale);
+  momentum.angular_scale = std::max(momentum.angular_scale, sum.moment_scale);
+}
+
+template class ImplicitSolver<2>;
+template class ImplicitSolver<3>;
+} // namespace signorini
