@@ -95,6 +95,7 @@ void check_quasi_static(const ParameterText &text, const Parameters &parameters)
   for (const BodyParameters &body : parameters.bodies)
     reject("Body " + body.name + "/Initial motion", "without inertia there is no velocity");
   reject("Contact/Damping", "without velocity there is no damping");
+  reject("Contact/Friction", "friction is there in explicit runs only");
 }
 
 /// Things that only an equilibrium has.

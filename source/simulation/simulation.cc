@@ -87,6 +87,7 @@ void Simulation<dim>::list_parts()
   note(!scene.obstacles.empty(), "contact with obstacles", "no obstacle");
   note(correction != nullptr, "contact correction", "no subsection Contact/Correction");
   note(!forces.damped_contacts.empty(), "contact damping", "no subsection Contact/Damping");
+  note(!forces.frictions.empty(), "friction", "no subsection Contact/Friction");
   note(!is_explicit, "quasi-static solver", "the run is explicit");
   note(is_explicit, "explicit solver", "the run is quasi-static");
   note(is_explicit, "mass and ledgers of energy and momentum", "the run is quasi-static");
