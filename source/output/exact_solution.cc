@@ -2,6 +2,7 @@
 #include "signorini/output/exact_solution.h"
 
 #include "signorini/base/exceptions.h"
+#include "signorini/output/rough_plane.h"
 #include "signorini/parameters/exact_solution_parameters.h"
 
 #include <algorithm>
@@ -310,6 +311,7 @@ const std::vector<Case<dim>> &cases()
                                             {"Sliding contact", Touching::at_the_end, sliding_contact<dim>},
                                             {"Bar impact", Touching::once, bar_impact<dim>},
                                             {"Bounce", Touching::once, bounce<dim>},
+                                            {"Rough plane", Touching::once, compare_with_rough_plane<dim>},
                                             {"Displacement", Touching::never, displacement<dim>}};
   return table;
 }

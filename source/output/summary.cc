@@ -103,6 +103,7 @@ Json describe_energy(const Results<dim> &results)
           {"elastic", energy.elastic},
           {"contact", energy.contact},
           {"dissipated", energy.dissipated},
+          {"rubbed_off", energy.rubbed_off},
           {"work", energy.work_of_loads + energy.work_of_supports},
           {"contact_renewals", energy.contact_renewals},
           {"contact_loss", energy.contact_loss},

@@ -46,6 +46,8 @@ void check_volume_potential(const ParameterText &text, const SectionReader &sect
   };
   if (contact.damping)
     refuse("damping: its forces act on elements, not on pairs of points");
+  if (contact.friction)
+    refuse("friction: an overlap has no points that could stick");
   if (contact.correction)
     refuse("correction: it knows no pressures to start from");
   for (const char *key : {"Integration", "Quadrature points"})
@@ -53,6 +55,16 @@ void check_volume_potential(const ParameterText &text, const SectionReader &sect
       refuse(fmt::format("'{}': it integrates overlaps exactly", key));
   if (!contact.penalty_factor)
     refuse("choice of the penalty factor by errors: it knows no pressures to estimate them from");
+}
+
+/// What friction needs of the contact.
+void check_friction(const SectionReader &section, const ContactParameters &contact)
+{
+  if (contact.integration == ContactParameters::Integration::face_segments)
+    throw InputError(
+        section.complain("Integration", "friction needs points that stay, and those of face segments do not")
+            .expected("automatic or face quadrature")
+            .advise("set Integration = face quadrature, or remove 'Friction'"));
 }
 
 bool is_in(const std::string &name, const std::vector<std::string> &names)
@@ -162,6 +174,11 @@ void declare_contact(Declarations &declarations, const DeclarationScope &scope)
   if (scope.includes("Contact/Damping"))
     SubsectionDeclaration(declarations, "Contact/Damping", "Dissipation in contact; explicit runs only.")
         .add_required("Damping ratio", number_from(0.), "", "ξ: share of critical damping of the contact.");
+  if (scope.includes("Contact/Friction"))
+    SubsectionDeclaration(declarations, "Contact/Friction",
+                          "Coulomb friction; explicit runs only, and not with the volume potential.")
+        .add_required("Friction coefficient", number_from(0.), "",
+                      "μ: most of the tangential traction over the pressure.");
   if (scope.includes("Contact/Correction"))
   {
     SubsectionDeclaration correction(
@@ -194,6 +211,9 @@ ContactParameters read_contact(const ParameterText &text, const Declarations &in
   if (text.find_subsection("Contact/Damping") != nullptr)
     contact.damping =
         DampingParameters{SectionReader(text, in_use, "Contact/Damping", 3).number("Damping ratio")};
+  if (text.find_subsection("Contact/Friction") != nullptr)
+    contact.friction =
+        FrictionParameters{SectionReader(text, in_use, "Contact/Friction", 3).number("Friction coefficient")};
   if (text.find_subsection("Contact/Correction") != nullptr)
   {
     const SectionReader correction(text, in_use, "Contact/Correction", 3);
@@ -202,6 +222,8 @@ ContactParameters read_contact(const ParameterText &text, const Declarations &in
   }
   if (contact.potential == ContactParameters::Potential::volume)
     check_volume_potential(text, section, contact, !obstacles.empty());
+  if (contact.friction)
+    check_friction(section, contact);
   return contact;
 }
 

@@ -95,6 +95,7 @@ void check_quasi_static(const ParameterText &text, const Parameters &parameters)
   for (const BodyParameters &body : parameters.bodies)
     reject("Body " + body.name + "/Initial motion", "without inertia there is no velocity");
   reject("Contact/Damping", "without velocity there is no damping");
+  reject("Contact/Friction", "friction is there in explicit runs only");
 }
 
 /// Things that only an equilibrium has.
@@ -122,27 +123,27 @@ void check_implicit_contact(const ParameterText &text, const Parameters &paramet
   using Stepping = ExplicitParameters::ContactStepping;
   const auto *run = std::get_if<ExplicitParameters>(&parameters.solver);
   const bool is_implicit = std::holds_alternative<ImplicitParameters>(parameters.solver);
-  if (is_implicit && parameters.adaptivity)
-    throw InputError(Complaint("'Adaptivity' is not there for 'Implicit' runs")
-                         .at(text.where("Adaptivity"))
-                         .found("'Implicit' stands at " + text.where("Implicit"))
-                         .advise("remove the subsection, or run 'Explicit' or 'Quasi-static'"));
+  if (!is_implicit && !(run && run->contact_stepping == Stepping::implicit_forces))
+    return;
+  const std::string name = is_implicit ? "'Implicit'" : "'Contact stepping = implicit'";
+  const auto reject = [&](bool is_there, const std::string &what, const std::string &where)
+  {
+    if (is_there)
+      throw InputError(
+          Complaint(fmt::format("{} contradicts {}: they do not work together yet", what, name))
+              .at(where)
+              .found(name + " stands at " +
+                     (is_implicit ? text.where("Implicit") : text.where("Explicit", "Contact stepping")))
+              .advise(is_implicit ? "remove the one, or run 'Explicit'"
+                                  : "remove the one, or set Contact stepping = explicit"));
+  };
+  reject(is_implicit && parameters.adaptivity, "'Adaptivity'", text.where("Adaptivity"));
   if (!parameters.contact)
     return;
-  if (is_implicit && parameters.contact->damping)
-    throw InputError(
-        Complaint("'Contact/Damping' is not there for 'Implicit' runs, whose contact dissipates by itself")
-            .at(text.where("Contact/Damping"))
-            .found("'Implicit' stands at " + text.where("Implicit"))
-            .advise("remove the subsection, or run 'Explicit'"));
-  if ((is_implicit || (run && run->contact_stepping == Stepping::implicit_forces)) &&
-      parameters.contact->potential == ContactParameters::Potential::volume)
-    throw InputError(
-        Complaint("implicit contact moves points of surfaces, which the volume potential does not have")
-            .at(is_implicit ? text.where("Implicit") : text.where("Explicit", "Contact stepping"))
-            .found("'Potential = volume' stands at " + text.where("Contact", "Potential"))
-            .advise(is_implicit ? "set Potential = surface, or run 'Explicit'"
-                                : "set Contact stepping = explicit, or Potential = surface"));
+  reject(is_implicit && parameters.contact->damping, "'Contact/Damping'", text.where("Contact/Damping"));
+  reject(parameters.contact->friction.has_value(), "'Contact/Friction'", text.where("Contact/Friction"));
+  reject(parameters.contact->potential == ContactParameters::Potential::volume, "'Potential = volume'",
+         text.where("Contact", "Potential"));
 }
 
 void check_contact_error(const ParameterText &text, const Parameters &parameters)

@@ -20,7 +20,7 @@ double relative_difference(const std::array<double, 3> &now, const std::array<do
 
 double EnergyLedger::imbalance() const
 {
-  return stored() + dissipated + contact_loss - work_of_loads - work_of_supports - contact_renewals -
+  return stored() + dissipated + rubbed_off + contact_loss - work_of_loads - work_of_supports - contact_renewals -
          adaptation - initial;
 }
 

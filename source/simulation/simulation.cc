@@ -89,6 +89,7 @@ void Simulation<dim>::list_parts()
   note(!scene.obstacles.empty(), "contact with obstacles", "no obstacle");
   note(correction != nullptr, "contact correction", "no subsection Contact/Correction");
   note(!forces.damped_contacts.empty(), "contact damping", "no subsection Contact/Damping");
+  note(!forces.frictions.empty(), "friction", "no subsection Contact/Friction");
   note(!is_in_motion(), "quasi-static solver", kind);
   note(is_explicit, "explicit solver", kind);
   note(is_implicit, "implicit solver", kind);

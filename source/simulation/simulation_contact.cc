@@ -98,6 +98,10 @@ void Simulation<dim>::build_contact()
                          forces.surface_contacts.end());
   if (settings.damping_ratio)
     forces.damped_contacts = forces.surface_contacts;
+  if (parameters.contact->friction)
+    for (const auto &contact : forces.surface_contacts)
+      forces.frictions.push_back(std::make_shared<FrictionForce<dim>>(
+          *contact, parameters.contact->friction->coefficient, communicator));
 }
 
 template <int dim>

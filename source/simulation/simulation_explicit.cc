@@ -121,6 +121,8 @@ void Simulation<dim>::record_motion(const MotionSolver<dim> &solver, double time
                       {"ledger residual [1]", energy.residual()},
                       {"linear momentum drift [1]", momentum.linear_drift()},
                       {"angular momentum drift [1]", momentum.angular_drift()}};
+  if (!forces.frictions.empty())
+    row.emplace_back(joules("rubbed off since the start"), energy.rubbed_off);
   if (has_implicit_contact() || implicit_solver)
     row.emplace_back(joules("energy lost by implicit contact since the start"), energy.contact_loss);
   if (parameters.adaptivity)

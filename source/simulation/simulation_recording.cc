@@ -45,11 +45,9 @@ void Simulation<dim>::record_state()
   record_contact(measure_terms());
   contact::PairForces<dim> pair_forces;
   for (const auto &term : forces.contacts)
-  {
-    contact::PairForces<dim> of_term = term->pair_forces(state);
-    pair_forces.bodies.merge(of_term.bodies);
-    pair_forces.obstacles.merge(of_term.obstacles);
-  }
+    pair_forces.add(term->pair_forces(state));
+  for (const auto &friction : forces.frictions)
+    pair_forces.add(friction->pair_forces());
   record_bodies(pair_forces);
   record_contact_forces(pair_forces);
 }

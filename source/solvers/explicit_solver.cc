@@ -51,6 +51,8 @@ void ExplicitSolver<dim>::begin(State &state)
   if (implicit_contact)
     implicit_contact->start();
   compute_forces(state, state.velocity);
+  for (const auto &friction : forces->frictions)
+    friction->commit();
   update_bulk_bound();
   take_stock(state);
 }
@@ -164,6 +166,11 @@ void ExplicitSolver<dim>::compute_contact_forces(const State &state, const Vecto
   }
   if (!forces->damped_contacts.empty())
     discretization->collect(damping_force);
+  for (const auto &friction : forces->frictions)
+  {
+    friction->update(velocity);
+    friction->add_force(friction->is_external() ? external_force : force);
+  }
 }
 
 template <int dim>
@@ -274,6 +281,8 @@ void ExplicitSolver<dim>::book_step(const State &state, double time_step)
     energy_ledger.work_of_loads += 0.5 * (old_load_force * increment + load_force * increment);
   if (!forces->damped_contacts.empty())
     energy_ledger.dissipated -= 0.5 * (old_damping_force * increment + damping_force * increment);
+  for (const auto &friction : forces->frictions)
+    energy_ledger.rubbed_off += friction->commit();
   if (has_external_forces)
     for (unsigned int d = 0; d < 3; ++d)
     {
@@ -345,6 +354,8 @@ void ExplicitSolver<dim>::take_stock(const State &state)
   energy_ledger.contact = 0.;
   for (const auto &contact : forces->contacts)
     energy_ledger.contact += contact->energy();
+  for (const auto &friction : forces->frictions)
+    energy_ledger.contact += friction->energy();
   energy_ledger.note_scale();
 
   const VectorAndMoment momentum = sum_over_nodes(*discretization, state.displacement, velocity, &mass);

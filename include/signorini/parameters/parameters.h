@@ -146,6 +146,12 @@ struct DampingParameters
   double damping_ratio = 0.; ///< ξ ≥ 0
 };
 
+/// `subsection Friction` in `subsection Contact`.
+struct FrictionParameters
+{
+  double coefficient = 0.; ///< μ ≥ 0
+};
+
 /// `subsection Correction` in `subsection Contact`.
 struct CorrectionParameters
 {
@@ -178,6 +184,7 @@ struct ContactParameters
   bool allow_initial_overlap = false;
   double max_penetration = 0.5; ///< over the size of an element: deeper, the run stops
   std::optional<DampingParameters> damping;
+  std::optional<FrictionParameters> friction;
   std::optional<CorrectionParameters> correction; ///< quasi-static runs
 };
 

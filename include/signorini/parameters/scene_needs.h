@@ -32,6 +32,9 @@ SceneNeed contact();
 /// Pressures of all contact are known.
 SceneNeed surface_potential();
 SceneNeed contact_damping();
+SceneNeed contact_friction();
+/// Of one body and one plane: a direction along the plane in which gravity pulls or the body starts.
+SceneNeed sliding_on_a_line();
 SceneNeed number_of_bodies(unsigned int number);
 SceneNeed number_of_obstacles(unsigned int number);
 /// One body and one obstacle, or two bodies and no obstacle: it is clear what touches what.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "signorini/contact/coupling/contact_force.h"
+#include "signorini/contact/coupling/friction_force.h"
 #include "signorini/contact/coupling/volume_contact_force.h"
 #include "signorini/physics/internal_force.h"
 
@@ -20,5 +21,6 @@ struct SceneForces
   std::vector<std::shared_ptr<VolumeContactForce<dim>>> volume_contacts; ///< those of `contacts` by volumes
   std::vector<std::shared_ptr<ContactForce<dim>>> surface_contacts;      ///< those by surfaces
   std::vector<std::shared_ptr<ContactForce<dim>>> damped_contacts;       ///< of these, those with damping
+  std::vector<std::shared_ptr<FrictionForce<dim>>> frictions;            ///< on surface contacts
 };
 } // namespace signorini

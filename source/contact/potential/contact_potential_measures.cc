@@ -31,24 +31,24 @@ ContactMeasures<dim> ContactPotential<dim>::measure() const
 template <int dim>
 void ContactPotential<dim>::add_to_measures(const NearPair &near, ContactMeasures<dim> &measures) const
 {
-  const Facet<dim> &contactor = surface.facets[near.pair.facet];
   const double depth = near.foot.depth;
   ++measures.n_active;
   measures.area += near.pair.area;
   measures.max_penetration = std::max(measures.max_penetration, depth);
   measures.max_pressure = std::max(measures.max_pressure, near.pressure());
-  const double thickness = near.target == nullptr ? contactor.layer_thickness
-                                                  : std::min(contactor.layer_thickness, near.target->room);
+  const double thickness = near.target == nullptr
+                               ? near.contactor.layer_thickness
+                               : std::min(near.contactor.layer_thickness, near.target->room);
   if (depth / thickness > measures.max_penetration_over_thickness)
   {
     measures.max_penetration_over_thickness = depth / thickness;
-    measures.deepest_body = surface.facets[near.pair.facet].body;
-    measures.deepest_thickness = surface.facets[near.pair.facet].layer_thickness;
+    measures.deepest_body = near.contactor.body;
+    measures.deepest_thickness = near.contactor.layer_thickness;
     measures.deepest_position = near.foot.position;
   }
 
   const SpatialVector<dim> force = near.force();
-  measures.resultants[contactor.body] += force;
+  measures.resultants[near.contactor.body] += force;
   if (near.target != nullptr)
     measures.resultants[near.target->body] -= force;
 }
@@ -56,8 +56,20 @@ void ContactPotential<dim>::add_to_measures(const NearPair &near, ContactMeasure
 template <int dim>
 PairForces<dim> ContactPotential<dim>::pair_forces(const std::vector<SpatialVector<dim>> &velocities) const
 {
-  PairForces<dim> forces;
   const bool is_damped = pairs.settings().damping_ratio && !velocities.empty();
+  return sum_by_pair(
+      [&](const NearPair &near)
+      {
+        const double pressure = is_damped ? total_pressure(near, velocities) : near.pressure();
+        return SpatialVector<dim>(near.pair.area * pressure * near.foot.normal);
+      });
+}
+
+template <int dim>
+PairForces<dim>
+ContactPotential<dim>::sum_by_pair(const std::function<SpatialVector<dim>(const NearPair &)> &force_of) const
+{
+  PairForces<dim> forces;
   const auto add = [](typename PairForces<dim>::Table &table, unsigned int one, unsigned int other,
                       const SpatialVector<dim> &force) {
     table.try_emplace({one, other}, SpatialVector<dim>::Zero()).first->second += force;
@@ -65,12 +77,8 @@ PairForces<dim> ContactPotential<dim>::pair_forces(const std::vector<SpatialVect
   for_each_overlap_above(0.,
                          [&](const NearPair &near)
                          {
-                           double pressure = near.pressure();
-                           if (is_damped)
-                             pressure += damping_pressure(near, depth_rate(near, velocities));
-                           const SpatialVector<dim> force = near.pair.area * pressure * near.foot.normal;
-                           const unsigned int body = surface.facets[near.pair.facet].body,
-                                              other = near.pair.target;
+                           const SpatialVector<dim> force = force_of(near);
+                           const unsigned int body = near.contactor.body, other = near.pair.target;
                            if (near.target == nullptr)
                              add(forces.obstacles, body, other, force);
                            else if (body < other)
@@ -113,7 +121,7 @@ std::vector<ContactSample<dim>> ContactPotential<dim>::samples() const
       -pairs.skin(),
       [&](const NearPair &near)
       {
-        const FacetNodes<dim> contactor = gather_nodes(surface.facets[near.pair.facet], evaluated_positions);
+        const FacetNodes<dim> contactor = gather_nodes(near.contactor, evaluated_positions);
         const auto frame = evaluate_facet_frame(contactor, near.pair.xi);
         if (frame.area_normal.dot(near.foot.normal) > -facing * frame.area_normal.norm())
           return;

@@ -99,6 +99,7 @@ void PairList<dim>::renew(const Positions &positions)
   if (neighbour_list.is_stale(positions))
     neighbour_list.rebuild(positions);
   positions_at_renewal = positions;
+  ++n_renewals_;
 
   const Pairs old_pairs = std::move(body_pairs_);
   body_pairs_.clear();
@@ -115,20 +116,12 @@ void PairList<dim>::renew(const Positions &positions)
 template <int dim>
 void PairList<dim>::keep_coefficients(const Pairs &old_pairs)
 {
-  const auto key = [](const ContactPair<dim> &pair)
-  {
-    std::array<double, dim + 1> values;
-    values[0] = pair.facet;
-    values[1] = pair.target;
-    std::copy(pair.xi.begin(), pair.xi.end(), values.begin() + 2);
-    return values;
-  };
-  std::map<std::array<double, dim + 1>, const ContactPair<dim> *> old_pair_of;
+  std::map<PairKey<dim>, const ContactPair<dim> *> old_pair_of;
   for (const ContactPair<dim> &pair : old_pairs)
-    old_pair_of.emplace(key(pair), &pair);
+    old_pair_of.emplace(key_of(pair), &pair);
   for (ContactPair<dim> &pair : body_pairs_)
   {
-    const auto old_pair = old_pair_of.find(key(pair));
+    const auto old_pair = old_pair_of.find(key_of(pair));
     if (old_pair != old_pair_of.end())
     {
       pair.stiffness = old_pair->second->stiffness;

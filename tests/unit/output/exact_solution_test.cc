@@ -2,6 +2,7 @@
 #include "signorini/output/exact_solution.h"
 
 #include "signorini/base/exceptions.h"
+#include "signorini/output/rough_plane.h"
 
 #include <gtest/gtest.h>
 
@@ -42,6 +43,34 @@ TEST(Restitution, FollowsASimulatedSpringAndDashpot)
 {
   for (const double damping_ratio : {.05, .4, .7071, .9, .999, 1., 1.5, 3.})
     EXPECT_NEAR(restitution(damping_ratio), simulate_bounce(damping_ratio), 2e-4) << damping_ratio;
+}
+
+/// The same way by fine time steps, with a friction that is only smooth.
+Slide simulate_slide(double velocity, double acceleration, double braking, double T)
+{
+  const double step = 1e-5;
+  Slide result;
+  for (double t = 0.; t < T; t += step)
+  {
+    velocity += step * (acceleration - braking * std::tanh(velocity / 1e-4));
+    result.way += step * velocity;
+    result.distance += step * std::abs(velocity);
+  }
+  return result;
+}
+
+TEST(RoughPlane, MassSlidesAsItDoesInSmallSteps)
+{
+  for (const double velocity : {-1., 0., 1.})
+    for (const double acceleration : {-3., 0., 3.})
+      for (const double braking : {0., 2., 4.})
+        for (const double T : {.1, .7})
+        {
+          const Slide exact = slide(velocity, acceleration, braking, T),
+                      simulated = simulate_slide(velocity, acceleration, braking, T);
+          EXPECT_NEAR(exact.way, simulated.way, 2e-4) << velocity << " " << acceleration << " " << braking;
+          EXPECT_NEAR(exact.distance, simulated.distance, 2e-4);
+        }
 }
 
 /// p₀ of a sphere or cylinder of radius 1 under a force of 1.

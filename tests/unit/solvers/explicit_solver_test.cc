@@ -129,6 +129,58 @@ TYPED_TEST(Explicit, LedgerOfContactOnAFloorClosesToSecondOrder)
   EXPECT_GT(drift[0] / drift[1], 1.8);
 }
 
+template <int dim>
+void add_friction(BuiltScene<dim> &built, double coefficient)
+{
+  contact::PotentialSettings settings = make_settings(contact::Integration::face_quadrature);
+  settings.damping_ratio = .3;
+  built.forces.frictions.push_back(
+      std::make_shared<FrictionForce<dim>>(*built.add_contact(settings), coefficient, MPI_COMM_WORLD));
+}
+
+TYPED_TEST(Explicit, BodiesThatRubKeepTheirMomenta)
+{
+  constexpr int dim = TypeParam::dim;
+  for (const double coefficient : {.3, 1e6})
+  {
+    BuiltScene<dim> built(make_overlapping_bodies<dim>(.02), TypeParam::degree);
+    add_friction(built, coefficient);
+    built.state.velocity = built.random_vector(.3);
+    Run<dim> run(built);
+    run.advance(100, run.solver.stable_step());
+    EXPECT_LT(run.solver.momentum().linear_drift(), 1e-13);
+    EXPECT_LT(run.solver.momentum().angular_drift(), 1e-12);
+    EXPECT_GT(run.solver.energy().rubbed_off, 0.);
+  }
+}
+
+TYPED_TEST(Explicit, LedgerOfABlockThatStartsToSlideClosesToSecondOrder)
+{
+  constexpr int dim = TypeParam::dim;
+  std::array<double, 2> drift;
+  for (unsigned int halving = 0; halving < 2; ++halving)
+  {
+    BuiltScene<dim> built({make_graded_cube()}, TypeParam::degree,
+                          [](Parameters &p)
+                          {
+                            p.gravity[0] = 2.;
+                            p.gravity[dim - 1] = -3.;
+                            p.obstacles = {make_floor<dim>(.002)};
+                          });
+    add_friction(built, .4);
+    built.forces.loads.push_back(
+        std::make_shared<DeadLoad<dim>>(built.scene, built.discretization, WeightShares::lumped_mass));
+    Run<dim> run(built);
+    drift[halving] = run.advance(150 << halving, run.solver.stable_step() / (4 << halving));
+    EXPECT_GT(run.solver.energy().rubbed_off, 0.);
+    EXPECT_GE(run.solver.energy().contact, built.forces.frictions[0]->energy());
+    EXPECT_LT(run.solver.momentum().linear_drift(), 1e-12);
+    EXPECT_LT(run.solver.momentum().angular_drift(), 1e-12);
+  }
+  EXPECT_LT(drift[1], .01);
+  EXPECT_GT(drift[0] / drift[1], 1.8);
+}
+
 TYPED_TEST(Explicit, FreeFallIsExact)
 {
   constexpr int dim = TypeParam::dim;

@@ -89,6 +89,11 @@ public:
   /// This rank's points.
   std::vector<contact::ContactSample<dim>> samples() const;
 
+  const ContactSurface<dim> &surface() const { return map->surface(); }
+
+  /// What acts on this rank's facets; positions in it are from the surface's origin.
+  const contact::ContactPotential<dim> &surface_potential() const { return potential; }
+
 private:
   /// Force by node, without damping, the same on all ranks [N] (collective).
   std::vector<SpatialVector<dim>> nodal_forces() const;

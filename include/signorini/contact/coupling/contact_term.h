@@ -30,11 +30,13 @@ public:
   /// where it has one (collective).
   virtual contact::PairForces<dim> pair_forces(const State &state) const = 0;
 
+  /// What each rank has as that of all ranks, the same on all of them (collective).
+  contact::PairForces<dim> sum(const contact::PairForces<dim> &own) const;
+
 protected:
   /// What each rank measured, with positions from `origin`, as that of all ranks (collective).
   contact::ContactMeasures<dim> sum(contact::ContactMeasures<dim> own,
                                     const SpatialVector<dim> &origin) const;
-  contact::PairForces<dim> sum(const contact::PairForces<dim> &own) const;
 
   /// Adds the same value to all components of a node, from nodal values of every rank (collective).
   void spread(const std::vector<double> &nodal, Vector &values) const;

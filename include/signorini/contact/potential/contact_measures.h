@@ -35,6 +35,13 @@ struct PairForces
   using Table = std::map<std::pair<unsigned int, unsigned int>, SpatialVector<dim>>;
   Table bodies;    ///< {one, other} with one < other: the force on `one`
   Table obstacles; ///< {body, obstacle}: the force on the body
+
+  void add(const PairForces &other)
+  {
+    for (const auto table : {&PairForces::bodies, &PairForces::obstacles})
+      for (const auto &[pair, force] : other.*table)
+        (this->*table).try_emplace(pair, SpatialVector<dim>::Zero()).first->second += force;
+  }
 };
 
 /// One sampled point with contact or near it, for reports.

@@ -3,6 +3,7 @@
 
 #include "signorini/contact/geometry/depth.h"
 
+#include <algorithm>
 #include <array>
 #include <limits>
 
@@ -23,6 +24,20 @@ struct ContactPair
   double damping = 0.;            ///< 2ξ√(k_A m_A) [Pa s/m]
   double distance_when_made = 0.; ///< of the point from the target's surface [m]
 };
+
+/// What tells a pair from all others and stays when pairs are made anew: facet, target, ξ.
+template <int dim>
+using PairKey = std::array<double, dim + 1>;
+
+template <int dim>
+PairKey<dim> key_of(const ContactPair<dim> &pair)
+{
+  PairKey<dim> key;
+  key[0] = pair.facet;
+  key[1] = pair.target;
+  std::copy(pair.xi.begin(), pair.xi.end(), key.begin() + 2);
+  return key;
+}
 
 /// Where a pair's point stands with respect to its target.
 template <int dim>

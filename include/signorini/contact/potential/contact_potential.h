@@ -124,14 +124,12 @@ public:
   /// that of the step, whatever the velocities.
   void follow(const Positions &increments, double time_step);
 
-private:
-  using ObstacleFoot = typename Obstacle<dim>::Foot;
-
   /// A point near its target; `target` is null for an obstacle.
   struct NearPair
   {
     const ContactPair<dim> &pair;
     const PairFoot<dim> &foot;
+    const Facet<dim> &contactor;
     const Facet<dim> *target;
     std::size_t index; ///< among all pairs, those of bodies first
     PairStencil<dim> stencil;
@@ -151,9 +149,13 @@ private:
       {
         if (!(feet[i].depth + list[i].offset > least))
           continue;
-        NearPair near{
-            list[i], feet[i], has_target_facet ? &surface.facets[feet[i].facet] : nullptr, first + i, {}};
-        near.stencil.add(surface.facets[list[i].facet], list[i].shape, 1.);
+        NearPair near{list[i],
+                      feet[i],
+                      surface.facets[list[i].facet],
+                      has_target_facet ? &surface.facets[feet[i].facet] : nullptr,
+                      first + i,
+                      {}};
+        near.stencil.add(near.contactor, list[i].shape, 1.);
         if (has_target_facet)
           near.stencil.add(*near.target, feet[i].shape, -1.);
         visit(near);
@@ -162,6 +164,18 @@ private:
     visit_all(pairs.body_pairs(), body_feet, 0, true);
     visit_all(pairs.obstacle_pairs(), obstacle_feet, body_feet.size(), false);
   }
+
+  /// k_A d and the damping at these velocities of the nodes together, ≥ 0 [Pa].
+  double total_pressure(const NearPair &near, const std::vector<SpatialVector<dim>> &velocities) const
+  {
+    return near.pressure() + damping_pressure(near, depth_rate(near, velocities));
+  }
+
+  /// Sums the forces that `force` gives for the contactors of all pairs in contact.
+  PairForces<dim> sum_by_pair(const std::function<SpatialVector<dim>(const NearPair &)> &force) const;
+
+private:
+  using ObstacleFoot = typename Obstacle<dim>::Foot;
 
   void evaluate_body_pairs();
   void evaluate_obstacle_pairs();

@@ -38,6 +38,9 @@ public:
   /// Makes all pairs anew; the neighbour list only if it is stale.
   void renew(const Positions &positions);
 
+  /// How often pairs were made: between two renewals each keeps its place in its list.
+  unsigned int n_renewals() const { return n_renewals_; }
+
   const Pairs &body_pairs() const { return body_pairs_; }
 
   /// In the order of the obstacles.
@@ -112,6 +115,7 @@ private:
   NodalPressures<dim> multipliers;
   Pairs body_pairs_;
   Pairs obstacle_pairs_;
+  unsigned int n_renewals_ = 0;
   Positions positions_at_renewal;
 };
 

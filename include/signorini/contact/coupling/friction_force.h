@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include "signorini/contact/coupling/contact_force.h"
+#include "signorini/contact/friction/friction.h"
+
+namespace signorini
+{
+/// The friction of a surface contact as a force on the degrees of freedom. It has a memory, so it is no force
+/// term: its energy depends on the way, and every step must be accepted once.
+template <int dim>
+class FrictionForce
+{
+public:
+  /// On `contact`, which must outlive this object, with the friction coefficient μ ≥ 0.
+  FrictionForce(const ContactForce<dim> &contact, double coefficient, const MPI_Comm &communicator);
+
+  bool is_external() const { return contact->is_external; }
+
+  /// Slips from the last accepted step to the state that the contact was updated to, under the pressures with
+  /// damping at `velocity` (collective).
+  void update(const Vector &velocity);
+
+  /// Stored in the elastic slip of all ranks together [J; J/m in 2-D] (collective).
+  double energy() const;
+
+  /// Adds to local and ghost entries; the caller collects.
+  void add_force(Vector &force) const;
+
+  /// Accepts the step; returns what all ranks dissipated in it [J; J/m in 2-D] (collective).
+  double commit();
+
+  /// Resultants by pair over all ranks, the same on all of them (collective).
+  contact::PairForces<dim> pair_forces() const { return contact->sum(friction.pair_forces()); }
+
+  /// See contact::Friction::placed_slips(); of all ranks, on every rank, where they are in space
+  /// (collective).
+  std::vector<contact::PlacedSlip<dim>> placed_slips() const;
+
+  /// See contact::Friction::remember().
+  void remember(std::vector<contact::PlacedSlip<dim>> slips);
+
+private:
+  const ContactForce<dim> *contact;
+  contact::Friction<dim> friction;
+  MPI_Comm communicator;
+};
+} // namespace signorini

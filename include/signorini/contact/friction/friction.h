@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include "signorini/contact/friction/coulomb_law.h"
+#include "signorini/contact/friction/facet_turn.h"
+#include "signorini/contact/friction/slip_history.h"
+#include "signorini/contact/potential/contact_potential.h"
+
+namespace signorini::contact
+{
+/// Coulomb friction of the points of a surface potential, from step to step (doc/theory.md, section 6a).
+///
+/// A point in contact has an elastic slip s in the tangent plane of its target and the traction τ = −k_A s on
+/// its facet, |τ| ≤ μ p with the pressure p ≥ 0, damping included. The slip grows by what the point moves, in
+/// one step, beyond the material point of the target that is carried along its normal to the same place: so a
+/// rigid motion of both is no slip. Both bodies get the traction at that place, hence their forces and
+/// moments cancel.
+///
+/// Use, once for each accepted step: evaluate(), any of the const functions, commit(). A step that is tried
+/// again evaluates again. Sums run over owned facets only; add over ranks for totals.
+template <int dim>
+class Friction
+{
+public:
+  using Positions = std::vector<SpatialVector<dim>>;
+
+  /// `potential` must outlive this object; `coefficient`: μ ≥ 0. Throws std::invalid_argument for face
+  /// segments, whose points do not stay, and for a coefficient without sense.
+  Friction(const ContactPotential<dim> &potential, double coefficient);
+
+  /// Slips from the positions of the last commit() to those that the potential was evaluated at, by the
+  /// pressures with damping at the velocities of the nodes. The first time nothing has moved yet.
+  void evaluate(const std::vector<SpatialVector<dim>> &velocities);
+
+  /// The points that touch, as of the last evaluation.
+  std::vector<PlacedSlip<dim>> placed_slips() const;
+
+  /// To be called before the first evaluation, which then gives every point that touches the slip of the
+  /// nearest of `slips` with the same partners, as far as its cone allows.
+  void remember(std::vector<PlacedSlip<dim>> slips) { remembered = std::move(slips); }
+
+  double energy() const; ///< Σ A ½ k_A |s|² [J]
+
+  /// Adds the forces of the tractions to those of the nodes.
+  void add_forces(std::vector<SpatialVector<dim>> &forces) const;
+
+  /// Accepts the step last evaluated. Returns what it dissipated [J]: of every point A times the mean of its
+  /// tractions before and after, times the way it slid. Not negative but for points that turn round while
+  /// they lose most of their pressure in the same step.
+  double commit();
+
+  /// Resultants of the tractions by pair.
+  PairForces<dim> pair_forces() const
+  {
+    return potential.sum_by_pair([this](const NearPair &near) { return force_of(near); });
+  }
+
+private:
+  using NearPair = typename ContactPotential<dim>::NearPair;
+
+  void begin();
+
+  /// How the target of a point has moved since the last commit, apart from what its nodes interpolate.
+  struct TargetMotion
+  {
+    SpatialTensor<dim> turn = SpatialTensor<dim>::Identity();
+    SpatialVector<dim> shift = SpatialVector<dim>::Zero(); ///< [m]
+  };
+
+  TargetMotion find_target_motion(const NearPair &near) const;
+  SpatialVector<dim> find_slip_increment(const NearPair &near, const TargetMotion &motion) const;
+  void slip(const NearPair &near, double pressure, FrictionPoint<dim> &point) const;
+
+  static auto partners_of(const NearPair &near)
+  {
+    return typename PlacedSlip<dim>::Partners(near.contactor.body, near.pair.target, near.target == nullptr);
+  }
+
+  /// The point of a pair in the history, which may be const or not.
+  template <typename History>
+  auto &point_of(const NearPair &near, History &all) const
+  {
+    const PairList<dim> &pairs = potential.pair_list();
+    return near.target != nullptr ? all.bodies[&near.pair - pairs.body_pairs().data()]
+                                  : all.obstacles[&near.pair - pairs.obstacle_pairs().data()];
+  }
+
+  /// On the contactor [N].
+  SpatialVector<dim> force_of(const NearPair &near) const;
+
+  const ContactPotential<dim> &potential;
+  double coefficient;
+  SlipHistory<dim> history;
+  std::vector<PlacedSlip<dim>> remembered; ///< until the first evaluation
+  Positions old_positions;                 ///< of the last commit; empty before the first
+};
+} // namespace signorini::contact

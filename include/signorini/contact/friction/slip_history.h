@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include "signorini/contact/potential/pair_list.h"
+
+#include <tuple>
+
+namespace signorini::contact
+{
+/// The friction of a point at one moment.
+template <int dim>
+struct PointSlip
+{
+  SpatialVector<dim> elastic = SpatialVector<dim>::Zero(); ///< s, in the plane of the normal [m]
+  SpatialVector<dim> normal = SpatialVector<dim>::Zero();  ///< of the target; zero without contact
+
+  bool is_touching() const { return normal != SpatialVector<dim>::Zero(); }
+};
+
+/// A point of a pair in the step under way.
+template <int dim>
+struct FrictionPoint
+{
+  PointSlip<dim> before;  ///< at the end of the last step
+  PointSlip<dim> now;     ///< at the positions of the last evaluation
+  double dissipated = 0.; ///< by what slid from one to the other [J/m²]
+};
+
+/// The friction of a point that is told by its place, so that points of another mesh can take it over.
+template <int dim>
+struct PlacedSlip
+{
+  /// What touches what: index of the body, index of the target, whether that is an obstacle.
+  using Partners = std::tuple<unsigned int, unsigned int, bool>;
+
+  Partners partners;
+  SpatialVector<dim> position; ///< [m]
+  PointSlip<dim> slip;
+};
+
+/// The points of all pairs of a pair list, and their memory: it stays with a point, whichever facet of its
+/// target it faces and however often pairs are made anew, as long as it touches.
+template <int dim>
+class SlipHistory
+{
+public:
+  using Pairs = typename PairList<dim>::Pairs;
+  using Points = std::vector<FrictionPoint<dim>>;
+
+  /// Brings the points into the order of the pairs. Does nothing unless these have been renewed.
+  void follow(const PairList<dim> &pairs);
+
+  Points bodies;    ///< one a body pair
+  Points obstacles; ///< one an obstacle pair
+
+private:
+  using Keys = std::vector<PairKey<dim>>;
+
+  static void reorder(const Pairs &pairs, Keys &keys, Points &points);
+
+  Keys body_keys, obstacle_keys; ///< of the points, in their order
+  unsigned int n_renewals = 0;
+};
+} // namespace signorini::contact
