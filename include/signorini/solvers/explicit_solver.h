@@ -57,6 +57,7 @@ private:
   void compute_load_forces(const State &state);
   void book_step(const State &state, double time_step);
   void book_supports(const State &state, double time_step);
+  void book_obstacles();
 
   const Discretization<dim> *discretization;
   const SupportedDofs<dim> *supports;
@@ -69,6 +70,7 @@ private:
   Vector force, load_force, damping_force, one_damping_force, external_force;
   Vector old_force, old_load_force, old_damping_force;
   Vector old_displacement, old_velocity, increment;
+  std::vector<contact::ObstacleForces<dim>> obstacle_forces, old_obstacle_forces; ///< of the moving contacts
   std::vector<double> half_velocity_of_supports;
   std::vector<unsigned int> dofs_of_supported_nodes; ///< local indices, free components included
   VectorAndMoment external, old_external;

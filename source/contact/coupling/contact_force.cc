@@ -90,8 +90,24 @@ ContactForce<dim>::ContactForce(const std::string &term_name, bool is_an_externa
 }
 
 template <int dim>
+void ContactForce<dim>::move_obstacles(double time)
+{
+  if (motions.empty())
+    return;
+  contact::ObstaclePlaces<dim> places;
+  places.time = time;
+  for (const ObstacleMotion<dim> &motion : motions)
+  {
+    places.shifts.push_back(motion.displacement(time));
+    places.velocities.push_back(motion.velocity(time));
+  }
+  potential.move_obstacles(places);
+}
+
+template <int dim>
 double ContactForce<dim>::renew(const State &state)
 {
+  move_obstacles(state.time);
   return dealii::Utilities::MPI::sum(potential.update(map->positions(state.displacement)),
                                      this->communicator);
 }
@@ -99,6 +115,7 @@ double ContactForce<dim>::renew(const State &state)
 template <int dim>
 void ContactForce<dim>::update(const State &state)
 {
+  move_obstacles(state.time);
   const std::vector<SpatialVector<dim>> x = map->positions(state.displacement);
   if (potential.is_stale(x))
     potential.update(x);
@@ -126,6 +143,25 @@ double ContactForce<dim>::add_damping_force(const Vector &velocity, Vector &forc
   const double power = potential.add_damping_forces(map->gather(velocity), nodal);
   map->add_to_owners(nodal, force);
   return dealii::Utilities::MPI::sum(power, this->communicator);
+}
+
+template <int dim>
+contact::ObstacleForces<dim> ContactForce<dim>::obstacle_forces(const Vector &velocity) const
+{
+  contact::ObstacleForces<dim> forces = potential.obstacle_forces(map->gather(velocity));
+  for (auto *const list : {&forces.conservative, &forces.damping})
+    MPI_Allreduce(MPI_IN_PLACE, list->data(), static_cast<int>(dim * list->size()), MPI_DOUBLE, MPI_SUM,
+                  this->communicator);
+  return forces;
+}
+
+template <int dim>
+std::vector<SpatialVector<dim>> ContactForce<dim>::obstacle_increments() const
+{
+  std::vector<SpatialVector<dim>> increments = potential.obstacle_places().shifts;
+  for (std::size_t i = 0; i < increments.size(); ++i)
+    increments[i] -= potential.obstacle_places_before().shifts[i];
+  return increments;
 }
 
 template <int dim>
