@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""The rigid obstacles of a run as translucent actors, cut off near the bodies. Reads parameters.prm as the run left it."""
+"""The rigid obstacles of a run as translucent actors, cut off near the bodies. Reads parameters.prm and
+summary.json as the run left them."""
+import json
 import re
 
 import numpy
@@ -9,15 +11,18 @@ COLOUR, OPACITY = (0.36, 0.42, 0.5), 0.28
 MARGIN = 0.12  # around the bodies, as a share of the scene
 
 
-def read(path):
-    """Shape, point, normal and radius of every obstacle; none where the file is missing."""
+def read(directory):
+    """The entries of every obstacle and, as "shift", how far it has moved; none where the file is missing."""
+    path, summary = directory / "parameters.prm", directory / "summary.json"
+    moved = json.loads(summary.read_text(encoding="utf-8")).get("obstacles", []) if summary.is_file() else []
+    shifts = {obstacle["name"]: (obstacle["displacement"] + [0.0])[:3] for obstacle in moved}
     obstacles, inside = [], []
     for line in path.read_text(encoding="utf-8", errors="replace").splitlines() if path.is_file() else []:
         words = line.split("#")[0].strip()
         if words.startswith("subsection "):
             inside.append(words[len("subsection "):].strip())
             if len(inside) == 1 and inside[0].startswith("Obstacle "):
-                obstacles.append({})
+                obstacles.append({"shift": shifts.get(inside[0][len("Obstacle "):].strip(), (0.0, 0.0, 0.0))})
         elif words == "end":
             inside = inside[:-1]
         elif words.startswith("set ") and len(inside) == 1 and inside[0].startswith("Obstacle "):
@@ -52,9 +57,27 @@ def make_actors(obstacles, lower, upper, flat, cut=None):
 
 def make_function(obstacle, centre, flat):
     """The signed distance from the obstacle, positive outside, and its surface's point nearest to `centre`."""
-    point = numbers(obstacle.get("Point", "0, 0, 0"))
-    if obstacle.get("Shape", "plane") == "sphere":
-        radius = float(obstacle.get("Radius", 1))
+    shape, shift = obstacle.get("Shape", "plane"), numpy.array(obstacle["shift"])
+    point = numbers(obstacle.get("Point", "0, 0, 0")) + shift
+    radius = float(obstacle.get("Radius", 1))
+    if shape == "box":
+        corners = [numbers(obstacle.get(key, usual)) + shift
+                   for key, usual in (("Lower corner", "0, 0, 0"), ("Upper corner", "1, 1, 1"))]
+        if flat:
+            corners[0][2], corners[1][2] = -1e3, 1e3
+        function = vtk.vtkBox()
+        function.SetBounds(*numpy.column_stack(corners).reshape(-1))
+        return function, numpy.clip(centre, *corners)
+    if shape == "cylinder":
+        axis = numbers(obstacle.get("Axis", "0, 0, 1"))
+        axis /= numpy.linalg.norm(axis)
+        arm = centre - point - axis * numpy.dot(centre - point, axis)
+        function = vtk.vtkCylinder()
+        function.SetCenter(*point)
+        function.SetAxis(*axis)
+        function.SetRadius(radius)
+        return function, centre - arm + radius * arm / (numpy.linalg.norm(arm) or 1)
+    if shape == "sphere":
         arm = centre - point
         function = vtk.vtkSphere()
         function.SetCenter(*point)

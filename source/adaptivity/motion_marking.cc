@@ -54,10 +54,17 @@ find_cells_near_contact(const Scene<dim> &scene, const ContactParameters &contac
   note(contact::find_coming_contact<dim>(surface, motion, margins,
                                          [&](unsigned int body, unsigned int other)
                                          { return may_touch(body, scene.body_names[other]); }));
-  for (const auto &obstacle : scene.obstacles)
-    note(contact::find_coming_contact<dim>(surface, motion, margins, *obstacle->moved(-surface.origin),
-                                           [&](unsigned int body)
-                                           { return may_touch(body, obstacle->name()); }));
+  for (unsigned int i = 0; i < scene.obstacles.size(); ++i)
+  {
+    const Obstacle<dim> &obstacle = *scene.obstacles[i];
+    const ObstacleMotion<dim> &way = scene.obstacle_motions[i];
+    contact::StraightMotion<dim> seen_from_obstacle = motion;
+    for (SpatialVector<dim> &velocity : seen_from_obstacle.velocities)
+      velocity -= way.velocity(state.time);
+    note(contact::find_coming_contact<dim>(
+        surface, seen_from_obstacle, margins, *obstacle.moved(way.displacement(state.time) - surface.origin),
+        [&](unsigned int body) { return may_touch(body, obstacle.name()); }));
+  }
 
   std::vector<bool> is_near_contact(extra_levels.size(), false);
   for (const BoundaryFace<dim> &face : faces)

@@ -56,6 +56,21 @@ Json describe_supports(const Results<dim> &results)
 }
 
 template <int dim>
+Json describe_moving_obstacles(const Results<dim> &results)
+{
+  Json moving = Json::array();
+  const Parameters &parameters = *results.parameters;
+  for (std::size_t i = 0; i < parameters.obstacles.size() && !results.history.empty(); ++i)
+    if (!parameters.obstacles[i].displacement.empty())
+    {
+      const Triple &shift = results.history.back().bodies[parameters.bodies.size() + i].displacement;
+      moving.push_back({{"name", parameters.obstacles[i].name},
+                        {"displacement", std::vector<double>(shift.begin(), shift.begin() + dim)}});
+    }
+  return moving;
+}
+
+template <int dim>
 Json describe_collisions(const Results<dim> &results)
 {
   Json collisions = Json::array();
@@ -105,6 +120,7 @@ Json describe_energy(const Results<dim> &results)
           {"dissipated", energy.dissipated},
           {"rubbed_off", energy.rubbed_off},
           {"work", energy.work_of_loads + energy.work_of_supports},
+          {"work_of_obstacles", energy.work_of_obstacles},
           {"contact_renewals", energy.contact_renewals},
           {"contact_loss", energy.contact_loss},
           {"adaptation", energy.adaptation},
@@ -151,6 +167,8 @@ void write_summary(const Results<dim> &results, const std::string &input, unsign
   summary["memory_peak_mb"] = results.memory_peak_mb;
   if (results.has_contact)
     summary["contact"] = describe_contact(results);
+  if (const Json moving = describe_moving_obstacles(results); !moving.empty())
+    summary["obstacles"] = moving;
   if (!results.support_forces.empty())
     summary["supports"] = describe_supports(results);
   summary["energy"] = describe_energy(results);

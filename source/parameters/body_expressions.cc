@@ -55,16 +55,10 @@ Expression make_expression(const PlacedFormula &formula)
   }
 }
 
-void check_formula(const PlacedFormula &formula, const std::vector<Triple> &points,
-                   const unsigned int dimension, const double end_time)
+/// Throws for a value that is not finite at one of the points, at the start or at the end.
+void check_values(const PlacedFormula &formula, const Expression &expression,
+                  const std::vector<Triple> &points, const double end_time)
 {
-  const Expression expression = make_expression(formula);
-  if (dimension == 2 && expression.uses("z"))
-    throw InputError(Complaint("the expression uses the variable z, which two dimensions do not have")
-                         .at(formula.where)
-                         .found(formula.name + " = " + formula.formula)
-                         .expected("a formula of x, y, t")
-                         .advise("write y for the vertical coordinate, or set Dimension = 3"));
   for (const double t : {0., end_time})
     for (const Triple &x : points)
       if (const double value = expression.value(x, t); !std::isfinite(value))
@@ -75,6 +69,19 @@ void check_formula(const PlacedFormula &formula, const std::vector<Triple> &poin
                 .found(formula.name + " = " + formula.formula)
                 .expected("finite values wherever it is used")
                 .advise("correct the formula, or restrict it with if(condition, value, other)"));
+}
+
+void check_formula(const PlacedFormula &formula, const std::vector<Triple> &points,
+                   const unsigned int dimension, const double end_time)
+{
+  const Expression expression = make_expression(formula);
+  if (dimension == 2 && expression.uses("z"))
+    throw InputError(Complaint("the expression uses the variable z, which two dimensions do not have")
+                         .at(formula.where)
+                         .found(formula.name + " = " + formula.formula)
+                         .expected("a formula of x, y, t")
+                         .advise("write y for the vertical coordinate, or set Dimension = 3"));
+  check_values(formula, expression, points, end_time);
 }
 } // namespace
 
@@ -112,5 +119,30 @@ void check_expressions(const ParameterText &text, const BodyParameters &body, co
       check_formula({load.traction[c], path + "/Traction", text.where(path, "Traction")},
                     placed_points(load.boundary), dimension, end_time);
     }
+}
+
+void check_motion(const ParameterText &text, const ObstacleParameters &obstacle, const double end_time)
+{
+  constexpr double round_off = 1e-12;
+  const std::string path = "Obstacle " + obstacle.name, key = "Displacement";
+  for (const std::string &component : obstacle.displacement)
+  {
+    const PlacedFormula formula{component, join_path(path, key), text.where(path, key)};
+    const Expression expression = make_expression(formula);
+    const auto complain = [&](const std::string &what)
+    { return Complaint(what).at(formula.where).found(formula.name + " = " + formula.formula); };
+    for (const char *const variable : {"x", "y", "z"})
+      if (expression.uses(variable))
+        throw InputError(complain(fmt::format("the motion of an obstacle depends on {}", variable))
+                             .expected("a formula of t: an obstacle is rigid, and does not turn")
+                             .advise("write how it moves as a whole, such as -0.1*t"));
+    check_values(formula, expression, {{}}, end_time);
+    const double start = expression.value({}, 0.);
+    if (std::abs(start) > round_off * std::abs(expression.value({}, end_time)))
+      throw InputError(complain(fmt::format("the displacement of obstacle '{}' starts at {:.6g} m, not 0",
+                                            obstacle.name, start))
+                           .expected("0 at t = 0")
+                           .advise("let it grow with t, and give the place to start from by its other keys"));
+  }
 }
 } // namespace signorini

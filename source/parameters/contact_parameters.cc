@@ -15,7 +15,9 @@ namespace
 const NameTable<ObstacleParameters::Shape> &shapes()
 {
   static const NameTable<ObstacleParameters::Shape> table{{"plane", ObstacleParameters::Shape::plane},
-                                                          {"sphere", ObstacleParameters::Shape::sphere}};
+                                                          {"sphere", ObstacleParameters::Shape::sphere},
+                                                          {"cylinder", ObstacleParameters::Shape::cylinder},
+                                                          {"box", ObstacleParameters::Shape::box}};
   return table;
 }
 
@@ -106,38 +108,100 @@ std::vector<std::pair<std::string, std::string>> read_pairs(const SectionReader 
 void declare_obstacle(Declarations &declarations, const DeclarationScope &scope, const std::string &name)
 {
   const std::string path = "Obstacle " + name;
-  SubsectionDeclaration obstacle(declarations, path,
-                                 "A rigid, fixed obstacle; its name stands in 'Obstacles'.");
+  const auto shape_is = [&](const std::string &shape) { return scope.chosen(path, "Shape", shape, "plane"); };
+  SubsectionDeclaration obstacle(declarations, path, "A rigid obstacle; its name stands in 'Obstacles'.");
   obstacle.add("Shape", one_of(names_in(shapes())), "plane", "",
-               "Half-space behind a plane, or sphere (2-D: disk).");
-  obstacle.add("Point", scope.vector(), scope.components("0, 0, 0"), "m",
-               "A point of the plane, or the centre of the sphere.");
-  if (scope.chosen(path, "Shape", "plane", "plane"))
+               "Half-space behind a plane, sphere (2-D: disk), cylinder without ends (3-D), or box.");
+  if (shape_is("plane") || shape_is("sphere") || shape_is("cylinder"))
+    obstacle.add("Point", scope.vector(), scope.components("0, 0, 0"), "m",
+                 "A point of the plane or of the cylinder's axis, or the centre of the sphere.");
+  if (shape_is("plane"))
     obstacle.add("Normal", scope.vector(), scope.dimension == 3 ? "0, 0, 1" : "0, 1", "",
                  "Plane: points to where bodies may be, of any length but zero.");
-  if (scope.chosen(path, "Shape", "sphere", "plane"))
-    obstacle.add("Radius", positive_length(), "1", "m", "Sphere: radius.");
+  if (shape_is("cylinder"))
+    obstacle.add("Axis", scope.vector(), scope.components("0, 0, 1"), "",
+                 "Cylinder: direction of its axis, of any length but zero; not in 2-D.");
+  if (shape_is("sphere") || shape_is("cylinder"))
+    obstacle.add("Radius", positive_length(), "1", "m", "Sphere and cylinder: radius.");
+  if (shape_is("box"))
+  {
+    obstacle.add("Lower corner", scope.vector(), scope.components("0, 0, 0"), "m",
+                 "Box: smallest coordinates.");
+    obstacle.add("Upper corner", scope.vector(), scope.components("1, 1, 1"), "m",
+                 "Box: largest coordinates.");
+  }
+  obstacle.add(
+      "Displacement", any_text(), "", "m",
+      "How it moves as a whole, whatever touches it: a formula of t for each component, separated by "
+      "';', 0 at t = 0; absent: fixed.");
 }
+
+namespace
+{
+/// A vector that is no direction if it is zero; `advice` says what to give instead.
+Triple read_direction(const SectionReader &section, const std::string &key, const std::string &fault,
+                      const std::string &advice)
+{
+  const Triple direction = section.vector(key);
+  if (direction == Triple{})
+    throw InputError(section.complain(key, fault).expected("a vector other than zero").advise(advice));
+  return direction;
+}
+
+void read_corners(const SectionReader &section, const unsigned int dimension, ObstacleParameters &obstacle)
+{
+  obstacle.lower_corner = section.vector("Lower corner");
+  obstacle.upper_corner = section.vector("Upper corner");
+  for (unsigned int c = 0; c < dimension; ++c)
+  {
+    const double low = obstacle.lower_corner[c], high = obstacle.upper_corner[c];
+    if (!(low < high))
+      throw InputError(section
+                           .complain(section.given("Upper corner") ? "Upper corner" : "Lower corner",
+                                     fmt::format("component {} of 'Upper corner' of obstacle '{}' is not "
+                                                 "above that of 'Lower corner'",
+                                                 c + 1, obstacle.name))
+                           .expected(fmt::format("upper > lower; here {} and {}", high, low))
+                           .advise("exchange or correct the corners"));
+    obstacle.point[c] = 0.5 * (low + high);
+  }
+}
+} // namespace
 
 ObstacleParameters read_obstacle(const ParameterText &text, const Declarations &in_use,
                                  const std::string &name, const unsigned int dimension)
 {
+  using Shape = ObstacleParameters::Shape;
   const SectionReader section(text, in_use, "Obstacle " + name, dimension);
   ObstacleParameters obstacle;
   obstacle.name = name;
   obstacle.shape = section.choice("Shape", shapes());
-  obstacle.point = section.vector("Point");
-  if (obstacle.shape == ObstacleParameters::Shape::sphere)
+  if (section.given("Displacement"))
   {
-    obstacle.radius = section.number("Radius");
+    obstacle.displacement = section.formulas("Displacement");
+    obstacle.place_of_displacement = section.place("Displacement");
+  }
+  if (obstacle.shape == Shape::box)
+  {
+    read_corners(section, dimension, obstacle);
     return obstacle;
   }
-  obstacle.normal = section.vector("Normal");
-  if (obstacle.normal == Triple{})
+  obstacle.point = section.vector("Point");
+  if (obstacle.shape == Shape::plane)
+    obstacle.normal =
+        read_direction(section, "Normal", fmt::format("the normal of obstacle '{}' has length zero", name),
+                       "give the direction in which bodies may be, such as 0, 0, 1");
+  else
+    obstacle.radius = section.number("Radius");
+  if (obstacle.shape != Shape::cylinder)
+    return obstacle;
+  if (dimension == 2)
     throw InputError(
-        section.complain("Normal", fmt::format("the normal of obstacle '{}' has length zero", name))
-            .expected("a vector other than zero")
-            .advise("give the direction in which bodies may be, such as 0, 0, 1"));
+        section.complain("Shape", "a cylinder needs three dimensions")
+            .advise("use Shape = sphere, which is a disk in two dimensions, or set Dimension = 3"));
+  obstacle.axis =
+      read_direction(section, "Axis", fmt::format("the axis of obstacle '{}' has length zero", name),
+                     "give its direction, such as 0, 1, 0");
   return obstacle;
 }
 

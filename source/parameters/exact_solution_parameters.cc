@@ -48,15 +48,21 @@ const std::vector<ExactSolutionCase> &exact_solutions()
   static const ExactSolutionKey normal_force{
       "Normal force", positive_number(), "", "N",
       "Sliding contact: the constant force on the second body along the last axis."};
+  using Shape = ObstacleParameters::Shape;
+  static const SceneNeed fixed_planes = fixed_obstacles("obstacles that are fixed planes", {Shape::plane});
+  static const SceneNeed round_or_plane =
+      fixed_obstacles("obstacles that are fixed planes or spheres", {Shape::plane, Shape::sphere});
   static const std::string profile = "pressure profile (relative L2 distance)";
   static const std::vector<ExactSolutionCase> table{
       {"Hertz sphere",
        {radius, fraction},
-       {dimension_equal_to(3), one_touching_pair(), contact(), surface_potential(), matching_radius()},
+       {dimension_equal_to(3), one_touching_pair(), round_or_plane, contact(), surface_potential(),
+        matching_radius()},
        {"peak pressure", "contact radius", "contact area", "approach", profile}},
       {"Hertz cylinder",
        {radius, fraction},
-       {dimension_equal_to(2), one_touching_pair(), contact(), surface_potential(), matching_radius()},
+       {dimension_equal_to(2), one_touching_pair(), round_or_plane, contact(), surface_potential(),
+        matching_radius()},
        {"peak pressure", "contact radius", "contact area", profile}},
       {"Squeezed bars",
        {},
@@ -82,7 +88,7 @@ const std::vector<ExactSolutionCase> &exact_solutions()
         "peak contact force (with the dashpots')"}},
       {"Bounce",
        {},
-       {run_in_motion(), number_of_bodies(1), boxes_only(), number_of_obstacles(1), planes_only(),
+       {run_in_motion(), number_of_bodies(1), boxes_only(), number_of_obstacles(1), fixed_planes,
         contact_damping(), hexahedra_only(), no_grading()},
        {"restitution", "impulse of the obstacle", "dissipated energy"}},
       {"Rough plane",

@@ -235,6 +235,8 @@ void check_together(const ParameterText &text, const Parameters &parameters)
   check_densities(text, parameters);
   for (const BodyParameters &body : parameters.bodies)
     check_expressions(text, body, parameters.dimension, end_time);
+  for (const ObstacleParameters &obstacle : parameters.obstacles)
+    check_motion(text, obstacle, end_time);
   check_exact_solution(text, parameters);
 }
 } // namespace

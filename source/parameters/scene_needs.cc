@@ -256,14 +256,16 @@ SceneNeed one_touching_pair()
           }};
 }
 
-SceneNeed planes_only()
+SceneNeed fixed_obstacles(const std::string &needed, const std::vector<ObstacleParameters::Shape> &shapes)
 {
-  return {"obstacles that are planes",
-          [](const ParameterText &text, const Parameters &parameters) -> MaybeFault
+  return {needed,
+          [shapes](const ParameterText &text, const Parameters &parameters) -> MaybeFault
           {
             for (const ObstacleParameters &obstacle : parameters.obstacles)
-              if (obstacle.shape != ObstacleParameters::Shape::plane)
+              if (std::find(shapes.begin(), shapes.end(), obstacle.shape) == shapes.end())
                 return fault_of_entry(text, "Obstacle " + obstacle.name, "Shape", "plane");
+              else if (!obstacle.displacement.empty())
+                return fault_of_entry(text, "Obstacle " + obstacle.name, "Displacement", "");
             return {};
           }};
 }

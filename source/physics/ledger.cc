@@ -20,8 +20,8 @@ double relative_difference(const std::array<double, 3> &now, const std::array<do
 
 double EnergyLedger::imbalance() const
 {
-  return stored() + dissipated + rubbed_off + contact_loss - work_of_loads - work_of_supports - contact_renewals -
-         adaptation - initial;
+  return stored() + dissipated + rubbed_off + contact_loss - work_of_loads - work_of_supports -
+         work_of_obstacles - contact_renewals - adaptation - initial;
 }
 
 void EnergyLedger::book_adaptation(double before)
@@ -38,7 +38,8 @@ double EnergyLedger::residual() const
 
 void EnergyLedger::note_scale()
 {
-  largest = std::max(largest, std::max(stored(), std::abs(work_of_loads) + std::abs(work_of_supports)));
+  largest = std::max(largest, std::max(stored(), std::abs(work_of_loads) + std::abs(work_of_supports) +
+                                                     std::abs(work_of_obstacles)));
 }
 
 double MomentumLedger::linear_drift() const

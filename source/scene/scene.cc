@@ -53,10 +53,20 @@ template <int dim>
 std::shared_ptr<const Obstacle<dim>> make_obstacle(const ObstacleParameters &parameters)
 {
   const SpatialVector<dim> point = to_spatial_vector<dim>(parameters.point);
-  if (parameters.shape == ObstacleParameters::Shape::plane)
+  switch (parameters.shape)
+  {
+  case ObstacleParameters::Shape::plane:
     return std::make_shared<RigidPlane<dim>>(parameters.name, point,
                                              to_spatial_vector<dim>(parameters.normal));
-  return std::make_shared<RigidSphere<dim>>(parameters.name, point, parameters.radius);
+  case ObstacleParameters::Shape::sphere:
+    return std::make_shared<RigidSphere<dim>>(parameters.name, point, parameters.radius);
+  case ObstacleParameters::Shape::cylinder:
+    return std::make_shared<RigidCylinder<dim>>(parameters.name, point,
+                                                to_spatial_vector<dim>(parameters.axis), parameters.radius);
+  default:
+    return std::make_shared<RigidBox<dim>>(parameters.name, to_spatial_vector<dim>(parameters.lower_corner),
+                                           to_spatial_vector<dim>(parameters.upper_corner));
+  }
 }
 } // namespace
 
@@ -89,11 +99,26 @@ Scene<dim> make_scene(const Parameters &parameters)
     scene.initial_velocity.push_back(to_spatial_vector<dim>(body.initial_velocity));
     scene.initial_spin.push_back(body.initial_spin);
   }
+  const double end_time = std::visit([](const auto &solver) { return solver.end_time; }, parameters.solver);
   for (const ObstacleParameters &obstacle : parameters.obstacles)
+  {
     scene.obstacles.push_back(make_obstacle<dim>(obstacle));
+    scene.obstacle_motions.emplace_back(
+        obstacle.displacement,
+        fmt::format("{}: Obstacle {}/Displacement", obstacle.place_of_displacement, obstacle.name), end_time);
+  }
   return scene;
 }
 
+template <int dim>
+bool Scene<dim>::is_any_obstacle_moving() const
+{
+  return std::any_of(obstacle_motions.begin(), obstacle_motions.end(),
+                     [](const ObstacleMotion<dim> &motion) { return !motion.is_fixed(); });
+}
+
+template struct Scene<2>;
+template struct Scene<3>;
 template double evaluate<2>(const Expression &, const std::string &, const dealii::Point<2> &, double);
 template double evaluate<3>(const Expression &, const std::string &, const dealii::Point<3> &, double);
 template Scene<2> make_scene<2>(const Parameters &);

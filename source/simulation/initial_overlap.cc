@@ -145,19 +145,20 @@ std::optional<InitialOverlap<dim>> OverlapSearch<dim>::find_on_this_rank(double 
 }
 
 template <int dim>
-std::optional<InitialOverlap<dim>> OverlapSearch<dim>::find_swallowed_sphere() const
+std::optional<InitialOverlap<dim>> OverlapSearch<dim>::find_swallowed_obstacle() const
 {
-  for (unsigned int i = 0; i < parameters.obstacles.size(); ++i)
-    if (parameters.obstacles[i].shape == ObstacleParameters::Shape::sphere)
-    {
-      const auto centre = to_spatial_vector<dim>(parameters.obstacles[i].point);
-      const auto found = interiors.find_deepest(centre, [&](unsigned int body)
-                                                { return !is_excluded(body, scene.n_bodies() + i); });
-      if (found)
-        return InitialOverlap<dim>{found->body, scene.n_bodies() + i,
-                                   found->depth + parameters.obstacles[i].radius,
-                                   surface.facets[found->facet].layer_thickness, centre};
-    }
+  for (unsigned int i = 0; i < scene.obstacles.size(); ++i)
+  {
+    const auto point = to_spatial_vector<dim>(parameters.obstacles[i].point);
+    const double depth = scene.obstacles[i]->find_foot(point).depth;
+    if (depth <= 0.)
+      continue;
+    const auto found = interiors.find_deepest(point, [&](unsigned int body)
+                                              { return !is_excluded(body, scene.n_bodies() + i); });
+    if (found)
+      return InitialOverlap<dim>{found->body, scene.n_bodies() + i, found->depth + depth,
+                                 surface.facets[found->facet].layer_thickness, point};
+  }
   return {};
 }
 
@@ -165,19 +166,15 @@ template <int dim>
 std::optional<InitialOverlap<dim>> OverlapSearch<dim>::find_gross(double allowed) const
 {
   const auto overlap = choose_deepest(find_on_this_rank(allowed), discretization.communicator());
-  return overlap ? overlap : find_swallowed_sphere();
+  return overlap ? overlap : find_swallowed_obstacle();
 }
 
-/// The largest coordinate along a direction; that of a plane counts along its normal only.
+/// The largest coordinate along a direction.
 template <int dim>
 double OverlapSearch<dim>::reach(unsigned int body_or_obstacle, const SpatialVector<dim> &direction) const
 {
   if (body_or_obstacle >= scene.n_bodies())
-  {
-    const ObstacleParameters &obstacle = parameters.obstacles[body_or_obstacle - scene.n_bodies()];
-    const double along = direction.dot(to_spatial_vector<dim>(obstacle.point));
-    return obstacle.shape == ObstacleParameters::Shape::plane ? along : along + obstacle.radius;
-  }
+    return scene.obstacles[body_or_obstacle - scene.n_bodies()]->reach(direction);
   double largest = -std::numeric_limits<double>::max();
   for (const Facet<dim> &facet : surface.facets)
     if (facet.body == body_or_obstacle)
@@ -190,23 +187,19 @@ template <int dim>
 SpatialVector<dim> OverlapSearch<dim>::find_shift(const InitialOverlap<dim> &overlap) const
 {
   std::vector<SpatialVector<dim>> directions;
-  const bool is_obstacle = overlap.other >= scene.n_bodies();
-  if (is_obstacle)
+  if (overlap.other >= scene.n_bodies())
     directions.push_back(scene.obstacles[overlap.other - scene.n_bodies()]->find_foot(overlap.point).normal);
-  if (!is_obstacle ||
-      parameters.obstacles[overlap.other - scene.n_bodies()].shape != ObstacleParameters::Shape::plane)
+  SpatialVector<dim> between;
+  for (unsigned int d = 0; d < dim; ++d)
   {
-    SpatialVector<dim> between;
-    for (unsigned int d = 0; d < dim; ++d)
-    {
-      const SpatialVector<dim> axis = SpatialVector<dim>::Unit(d);
-      directions.insert(directions.end(), {axis, -axis});
-      between[d] = reach(overlap.body, axis) - reach(overlap.body, -axis) - reach(overlap.other, axis) +
-                   reach(overlap.other, -axis);
-    }
-    if (between.norm() > 0.)
-      directions.push_back(between.normalized());
+    const SpatialVector<dim> axis = SpatialVector<dim>::Unit(d);
+    directions.insert(directions.end(), {axis, -axis});
+    between[d] = reach(overlap.body, axis) - reach(overlap.body, -axis) - reach(overlap.other, axis) +
+                 reach(overlap.other, -axis);
   }
+  // An obstacle without ends has no middle.
+  if (const double distance = between.norm(); distance > 0. && std::isfinite(distance))
+    directions.push_back(between / distance);
   SpatialVector<dim> shortest;
   double length = std::numeric_limits<double>::max();
   for (const SpatialVector<dim> &direction : directions)

@@ -87,6 +87,8 @@ void Simulation<dim>::list_parts()
   note(volume_map != nullptr, "volume potential",
        scene.n_bodies() > 1 ? "Contact/Potential is not volume" : "one body only");
   note(!scene.obstacles.empty(), "contact with obstacles", "no obstacle");
+  note(!forces.moving_contacts.empty(), "motion of obstacles",
+       scene.obstacles.empty() ? "no obstacle" : "no obstacle has a Displacement");
   note(correction != nullptr, "contact correction", "no subsection Contact/Correction");
   note(!forces.damped_contacts.empty(), "contact damping", "no subsection Contact/Damping");
   note(!forces.frictions.empty(), "friction", "no subsection Contact/Friction");

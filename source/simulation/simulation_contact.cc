@@ -92,6 +92,11 @@ void Simulation<dim>::build_contact()
         obstacles_only.excluded_body_pairs.emplace_back(one, other);
     forces.surface_contacts.push_back(std::make_shared<ContactForce<dim>>(
         "contact with obstacles", true, *surface_map, scene.obstacles, obstacles_only, communicator));
+    if (scene.is_any_obstacle_moving())
+    {
+      forces.surface_contacts.back()->set_motions(scene.obstacle_motions);
+      forces.moving_contacts.push_back(forces.surface_contacts.back());
+    }
   }
   forces.contacts.assign(forces.volume_contacts.begin(), forces.volume_contacts.end());
   forces.contacts.insert(forces.contacts.end(), forces.surface_contacts.begin(),
@@ -156,9 +161,9 @@ void Simulation<dim>::record_contact(const MeasuresOfTerms &measures)
 }
 
 template <int dim>
-void Simulation<dim>::check_sphere_sizes() const
+void Simulation<dim>::check_obstacle_sizes() const
 {
-  // Between the points of a face a small sphere is not seen before it has gone this deep into a flat face.
+  // Between the points of a face a small ball is not seen before it has gone this deep into a flat face.
   const auto unseen_depth = [this](double radius, const Facet<dim> &facet)
   {
     const auto &x = surface_map->surface().reference_positions;
@@ -167,25 +172,25 @@ void Simulation<dim>::check_sphere_sizes() const
     return reach < radius ? radius - std::sqrt(radius * radius - reach * reach)
                           : std::numeric_limits<double>::max();
   };
-  for (const ObstacleParameters &obstacle : parameters.obstacles)
+  for (const auto &obstacle : scene.obstacles)
     for (unsigned int body = 0; body < scene.n_bodies(); ++body)
     {
-      if (obstacle.shape != ObstacleParameters::Shape::sphere ||
-          is_pair_excluded(*parameters.contact, scene.body_names[body], obstacle.name))
+      if (std::isinf(obstacle->room()) ||
+          is_pair_excluded(*parameters.contact, scene.body_names[body], obstacle->name()))
         continue;
       const auto &facets = surface_map->surface().facets;
       if (std::none_of(facets.begin(), facets.end(),
                        [&](const Facet<dim> &facet) {
                          return facet.body == body &&
-                                unseen_depth(obstacle.radius, facet) < 0.25 * facet.room;
+                                unseen_depth(obstacle->room(), facet) < 0.25 * facet.room;
                        }))
         throw InputError(
             Complaint(
                 fmt::format("obstacle '{}' is too small for the faces of body '{}': it could slip between "
                             "their points of integration",
-                            obstacle.name, scene.body_names[body]))
-                .at(text->where("Obstacle " + obstacle.name))
-                .found(fmt::format("Radius = {}", obstacle.radius))
+                            obstacle->name(), scene.body_names[body]))
+                .at(text->where("Obstacle " + obstacle->name()))
+                .found(fmt::format("a radius, or half of the smallest width, of {} m", obstacle->room()))
                 .expected("to be seen before it is a quarter of an element deep")
                 .advise("refine the body, raise Contact/Quadrature points, or exclude the pair"));
     }
@@ -207,7 +212,7 @@ void Simulation<dim>::check_initial_overlap()
   }
   if (!surface_map)
     return;
-  check_sphere_sizes();
+  check_obstacle_sizes();
   const contact::ContactMeasures<dim> measures = measure_contact();
   const OverlapSearch<dim> search(parameters, scene, *discretization, *surface_map, state.displacement);
   std::optional<InitialOverlap<dim>> overlap = search.find_gross(allowed);
@@ -240,20 +245,27 @@ double Simulation<dim>::limit_time_step(double time_step) const
   constexpr double limit = 0.5, shortest = 1e-3;
   if (!surface_map)
     return time_step;
-  const double thinnest = surface_map->surface().smallest_room();
-  const double motion = time_step * state.velocity.linfty_norm();
+  double thinnest = surface_map->surface().smallest_room(), motion_of_obstacles = 0.;
+  for (unsigned int i = 0; i < scene.obstacles.size(); ++i)
+  {
+    thinnest = std::min(thinnest, scene.obstacles[i]->room());
+    motion_of_obstacles =
+        std::max(motion_of_obstacles, time_step * scene.obstacle_motions[i].velocity(state.time).norm());
+  }
+  const double motion = time_step * state.velocity.linfty_norm() + motion_of_obstacles;
   if (!(motion > limit * thinnest))
     return time_step;
   const double share = limit * thinnest / motion;
   if (share < shortest)
     throw NumericalError(
         Complaint(
-            fmt::format("bodies move by {:.3g} m in one step at t = {:.6g}: they could pass through each "
+            fmt::format("bodies{} move by {:.3g} m in one step at t = {:.6g}: they could pass through each "
                         "other unseen",
-                        motion, state.time))
-            .expected(fmt::format("at most {} of the thinnest element or half body, {:.3g} m, or the step is "
-                                  "shortened, though not below {} of its length",
-                                  limit, thinnest, shortest))
+                        motion_of_obstacles > 0. ? " and obstacles" : "", motion, state.time))
+            .expected(
+                fmt::format("at most {} of the thinnest element, half body or half obstacle, {:.3g} m, or "
+                            "the step is shortened, though not below {} of its length",
+                            limit, thinnest, shortest))
             .advise("check speeds, loads and units, or lower Explicit/Bulk step factor"));
   return share * time_step;
 }

@@ -91,8 +91,16 @@ void Simulation<dim>::record_bodies(const contact::PairForces<dim> &pair_forces)
       records[body].position[d] = (sum[0] + sum[1]) / volume;
       records[body].half_widths[d] = 0.5 * (bounds[2 * (dim * body + d)] + bounds[2 * (dim * body + d) + 1]);
     }
-  for (const ObstacleParameters &obstacle : parameters.obstacles)
-    records.push_back({obstacle.point, {}, {}, {}, {}});
+  for (unsigned int i = 0; i < scene.obstacles.size(); ++i)
+  {
+    const ObstacleMotion<dim> &motion = scene.obstacle_motions[i];
+    BodyRecord record;
+    record.position = parameters.obstacles[i].point;
+    add_to<dim>(record.displacement, motion.displacement(state.time), 1.);
+    add_to<dim>(record.position, motion.displacement(state.time), 1.);
+    add_to<dim>(record.velocity, motion.velocity(state.time), is_moving ? 1. : 0.);
+    records.push_back(record);
+  }
   results.history.push_back({state.time, records, {}});
   auto &touching = results.history.back().touching;
   for (const auto &[pair, force] : pair_forces.bodies)

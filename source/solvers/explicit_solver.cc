@@ -171,6 +171,15 @@ void ExplicitSolver<dim>::compute_contact_forces(const State &state, const Vecto
     friction->update(velocity);
     friction->add_force(friction->is_external() ? external_force : force);
   }
+  obstacle_forces.clear();
+  for (const auto &contact : forces->moving_contacts)
+  {
+    obstacle_forces.push_back(contact->obstacle_forces(velocity));
+    for (const auto &friction : forces->frictions)
+      if (friction->is_external())
+        for (const auto &[pair, on_body] : friction->pair_forces().obstacles)
+          obstacle_forces.back().conservative[pair.second] += on_body;
+  }
 }
 
 template <int dim>
@@ -193,6 +202,7 @@ void ExplicitSolver<dim>::step(double time_step, State &state)
   old_load_force.swap(load_force);
   old_damping_force.swap(damping_force);
   std::swap(old_external, external);
+  old_obstacle_forces.swap(obstacle_forces);
   old_displacement = state.displacement;
   old_velocity = state.velocity;
 
@@ -291,6 +301,25 @@ void ExplicitSolver<dim>::book_step(const State &state, double time_step)
     }
   if (!supports->entries().empty())
     book_supports(state, time_step);
+  book_obstacles();
+}
+
+template <int dim>
+void ExplicitSolver<dim>::book_obstacles()
+{
+  for (std::size_t i = 0; i < obstacle_forces.size(); ++i)
+  {
+    const contact::ObstacleForces<dim> &now = obstacle_forces[i], &before = old_obstacle_forces[i];
+    const std::vector<SpatialVector<dim>> increments = forces->moving_contacts[i]->obstacle_increments();
+    for (std::size_t o = 0; o < increments.size(); ++o)
+    {
+      const double dissipation = 0.5 * (before.damping[o] + now.damping[o]).dot(increments[o]);
+      // The damping takes from the bodies less than their own way through its forces, or more.
+      energy_ledger.dissipated += dissipation;
+      energy_ledger.work_of_obstacles +=
+          dissipation + 0.5 * (before.conservative[o] + now.conservative[o]).dot(increments[o]);
+    }
+  }
 }
 
 template <int dim>

@@ -53,6 +53,8 @@ QuasiStaticSolver<dim>::QuasiStaticSolver(const Discretization<dim> &the_discret
                                             nodal_volume.local_element(dof);
   if (surface_map)
     longest_step = 0.25 * surface_map->surface().smallest_room();
+  for (const auto &obstacle : scene->obstacles)
+    longest_step = std::min(longest_step, 0.25 * obstacle->room());
   for (const auto &contact : forces->contacts)
     relevant_dofs.add_indices(contact->nodes().relevant_dofs());
   relevant_dofs.compress();
@@ -191,10 +193,14 @@ double QuasiStaticSolver<dim>::search_along(const Vector &increment, State &stat
 template <int dim>
 void QuasiStaticSolver<dim>::move_supports(double time, State &state)
 {
-  // With the supports everything moves by the linear prediction; what that leaves is Newton's.
+  // With the supports everything moves by the linear prediction; what that and the obstacles leave is
+  // Newton's.
   const double old_time = state.time;
   state.time = time;
   const bool do_supports_move = make_constraints(old_time, time);
+  for (const ObstacleMotion<dim> &motion : scene->obstacle_motions)
+    if ((motion.displacement(time) - motion.displacement(old_time)).norm() > 3. * longest_step)
+      throw NumericalError("an obstacle moves so far in one step that it could pass through surfaces");
   balance.compute(state);
   if (!do_supports_move)
     return;

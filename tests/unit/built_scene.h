@@ -199,6 +199,11 @@ struct BuiltScene
     forces.surface_contacts.push_back(contact);
     if (settings.damping_ratio)
       forces.damped_contacts.push_back(contact);
+    if (scene.is_any_obstacle_moving())
+    {
+      contact->set_motions(scene.obstacle_motions);
+      forces.moving_contacts.push_back(contact);
+    }
     return contact;
   }
 

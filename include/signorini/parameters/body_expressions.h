@@ -13,4 +13,7 @@ Triple place(const PlacementParameters &placement, const Triple &x);
 /// bound their boundary. Throws InputError if one has a fault, or is not finite there.
 void check_expressions(const ParameterText &text, const BodyParameters &body, unsigned int dimension,
                        double end_time);
+
+/// The same for the motion of an obstacle, which must depend on t alone and begin with 0.
+void check_motion(const ParameterText &text, const ObstacleParameters &obstacle, double end_time);
 } // namespace signorini

@@ -131,13 +131,20 @@ struct ObstacleParameters
   enum class Shape
   {
     plane,
-    sphere
+    sphere,
+    cylinder,
+    box
   };
   std::string name;
   Shape shape = Shape::plane;
-  Triple point{};            ///< a point of the plane, or the centre of the sphere [m]
+  Triple point{};            ///< a point of the plane or the axis, or the centre of the sphere or the box [m]
   Triple normal{0., 0., 1.}; ///< plane: points to where bodies may be
-  double radius = 1.;        ///< sphere [m]
+  Triple axis{0., 0., 1.};   ///< cylinder: direction
+  double radius = 1.;        ///< sphere and cylinder [m]
+  Triple lower_corner{};     ///< box [m]
+  Triple upper_corner{};     ///< box [m]
+  std::vector<std::string> displacement; ///< a formula of t for each component [m]; empty: fixed
+  std::string place_of_displacement;     ///< for messages
 };
 
 /// `subsection Damping` in `subsection Contact`.

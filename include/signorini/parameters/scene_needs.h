@@ -39,7 +39,8 @@ SceneNeed number_of_bodies(unsigned int number);
 SceneNeed number_of_obstacles(unsigned int number);
 /// One body and one obstacle, or two bodies and no obstacle: it is clear what touches what.
 SceneNeed one_touching_pair();
-SceneNeed planes_only();
+/// Obstacles that do not move, of these shapes only; `needed` says so.
+SceneNeed fixed_obstacles(const std::string &needed, const std::vector<ObstacleParameters::Shape> &shapes);
 SceneNeed boxes_only();
 /// Quadrilaterals in 2-D.
 SceneNeed hexahedra_only();

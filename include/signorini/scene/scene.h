@@ -4,6 +4,7 @@
 #include "signorini/parameters/expression.h"
 #include "signorini/parameters/parameters.h"
 #include "signorini/scene/obstacle.h"
+#include "signorini/scene/obstacle_motion.h"
 
 #include <deal.II/base/point.h>
 
@@ -45,10 +46,12 @@ struct Scene
   std::vector<Triple> initial_spin;                 ///< one a body, about its centre of mass [rad/s]
   std::vector<Support<dim>> supports;
   std::vector<Load<dim>> loads;
-  SpatialVector<dim> gravity = SpatialVector<dim>::Zero(); ///< [m/s²]
-  std::vector<std::shared_ptr<const Obstacle<dim>>> obstacles;
+  SpatialVector<dim> gravity = SpatialVector<dim>::Zero();     ///< [m/s²]
+  std::vector<std::shared_ptr<const Obstacle<dim>>> obstacles; ///< where they are at t = 0
+  std::vector<ObstacleMotion<dim>> obstacle_motions;           ///< one an obstacle
 
   unsigned int n_bodies() const { return static_cast<unsigned int>(body_names.size()); }
+  bool is_any_obstacle_moving() const;
 };
 
 /// Value of a formula at a point and a time. Throws InputError, with `description`, if it is not finite.

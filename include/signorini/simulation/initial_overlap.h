@@ -33,7 +33,7 @@ public:
                 const Vector &displacement);
 
   /// A node, a centre of a cell or a point of the surface that lies deeper in another body than `allowed`
-  /// elements, or the centre of a sphere in a body; on every rank the same.
+  /// elements, or the point of an obstacle in a body; on every rank the same.
   std::optional<InitialOverlap<dim>> find_gross(double allowed) const;
 
   /// What a point of a body lies deepest in; it must lie in something.
@@ -50,7 +50,7 @@ private:
   void for_each_point(const std::function<void(unsigned int, const SpatialVector<dim> &)> &visit) const;
   std::optional<InitialOverlap<dim>> find_on_this_rank(double allowed) const;
   std::optional<InitialOverlap<dim>> find_in_bodies(unsigned int body, const SpatialVector<dim> &point) const;
-  std::optional<InitialOverlap<dim>> find_swallowed_sphere() const;
+  std::optional<InitialOverlap<dim>> find_swallowed_obstacle() const;
   double reach(unsigned int body_or_obstacle, const SpatialVector<dim> &direction) const;
   bool is_excluded(unsigned int body, unsigned int body_or_obstacle) const;
 

@@ -47,8 +47,8 @@ private:
   /// All that stands on the present mesh.
   void build_on_mesh();
   void build_contact();
-  /// Throws InputError for a sphere that could pass between the points of a body's faces.
-  void check_sphere_sizes() const;
+  /// Throws InputError for an obstacle that could pass between the points of a body's faces.
+  void check_obstacle_sizes() const;
   void check_initial_overlap();
   void list_parts();
 

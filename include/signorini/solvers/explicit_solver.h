@@ -67,6 +67,7 @@ private:
   void book_supports(const State &state, double time_step);
   void move_by_contact(double time_step, State &state);
   void add_half_step_of_contact(State &state);
+  void book_obstacles();
 
   const Discretization<dim> *discretization;
   const SupportedDofs<dim> *supports;
@@ -82,6 +83,7 @@ private:
   std::unique_ptr<ImplicitContact<dim>> implicit_contact; ///< null where contact is explicit or there is none
   Vector half_step_of_contact;                            ///< that is in the velocities [m/s]
   double last_time_step = 0.;                             ///< [s]
+  std::vector<contact::ObstacleForces<dim>> obstacle_forces, old_obstacle_forces; ///< of the moving contacts
   std::vector<double> half_velocity_of_supports;
   std::vector<unsigned int> dofs_of_supported_nodes; ///< local indices, free components included
   VectorAndMoment external, old_external;

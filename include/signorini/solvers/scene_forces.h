@@ -22,5 +22,6 @@ struct SceneForces
   std::vector<std::shared_ptr<ContactForce<dim>>> surface_contacts;      ///< those by surfaces
   std::vector<std::shared_ptr<ContactForce<dim>>> damped_contacts;       ///< of these, those with damping
   std::vector<std::shared_ptr<FrictionForce<dim>>> frictions;            ///< on surface contacts
+  std::vector<std::shared_ptr<ContactForce<dim>>> moving_contacts; ///< of these, those whose obstacles move
 };
 } // namespace signorini

@@ -90,10 +90,26 @@ ContactForce<dim>::ContactForce(const std::string &term_name, bool is_an_externa
 }
 
 template <int dim>
+void ContactForce<dim>::move_obstacles(double time)
+{
+  if (motions.empty())
+    return;
+  contact::ObstaclePlaces<dim> places;
+  places.time = time;
+  for (const ObstacleMotion<dim> &motion : motions)
+  {
+    places.shifts.push_back(motion.displacement(time));
+    places.velocities.push_back(motion.velocity(time));
+  }
+  potential.move_obstacles(places);
+}
+
+template <int dim>
 double ContactForce<dim>::renew(const State &state)
 {
   if (is_frozen)
     return 0.;
+  move_obstacles(state.time);
   return dealii::Utilities::MPI::sum(potential.update(map->positions(state.displacement)),
                                      this->communicator);
 }
@@ -101,14 +117,16 @@ double ContactForce<dim>::renew(const State &state)
 template <int dim>
 void ContactForce<dim>::update(const State &state)
 {
-  std::vector<SpatialVector<dim>> x = map->positions(state.displacement);
   if (is_frozen)
   {
+    std::vector<SpatialVector<dim>> x = map->positions(state.displacement);
     for (unsigned int node = 0; node < x.size(); ++node)
       x[node] -= potential.positions()[node];
     potential.follow(x, 0.);
     return;
   }
+  move_obstacles(state.time);
+  const std::vector<SpatialVector<dim>> x = map->positions(state.displacement);
   if (potential.is_stale(x))
     potential.update(x);
   potential.evaluate(x);
@@ -163,6 +181,25 @@ void ContactForce<dim>::add_points(double least, contact::ContactProblem<dim> &p
                                         weights.emplace_back(node, share * point.stencil.weight[a]);
                                     problem.add(point, weights);
                                   });
+}
+
+template <int dim>
+contact::ObstacleForces<dim> ContactForce<dim>::obstacle_forces(const Vector &velocity) const
+{
+  contact::ObstacleForces<dim> forces = potential.obstacle_forces(map->gather(velocity));
+  for (auto *const list : {&forces.conservative, &forces.damping})
+    MPI_Allreduce(MPI_IN_PLACE, list->data(), static_cast<int>(dim * list->size()), MPI_DOUBLE, MPI_SUM,
+                  this->communicator);
+  return forces;
+}
+
+template <int dim>
+std::vector<SpatialVector<dim>> ContactForce<dim>::obstacle_increments() const
+{
+  std::vector<SpatialVector<dim>> increments = potential.obstacle_places().shifts;
+  for (std::size_t i = 0; i < increments.size(); ++i)
+    increments[i] -= potential.obstacle_places_before().shifts[i];
+  return increments;
 }
 
 template <int dim>

@@ -80,6 +80,7 @@ void Friction<dim>::begin()
   }
   remembered.clear();
   old_positions = potential.positions();
+  old_shifts = potential.obstacle_places().shifts;
 }
 
 template <int dim>
@@ -99,7 +100,10 @@ auto Friction<dim>::find_target_motion(const NearPair &near) const -> TargetMoti
 {
   TargetMotion motion;
   if (near.target == nullptr)
-    return motion; // obstacles do not move
+  {
+    motion.shift = potential.obstacle_places().shifts[near.pair.target] - old_shifts[near.pair.target];
+    return motion;
+  }
   const LocalPoint<dim> &xi = near.foot.closest.xi;
   motion.turn = find_turn(FacetBasis<dim>(gather_nodes(*near.target, old_positions), xi),
                           FacetBasis<dim>(gather_nodes(*near.target, potential.positions()), xi));
@@ -180,6 +184,7 @@ template <int dim>
 double Friction<dim>::commit()
 {
   old_positions = potential.positions();
+  old_shifts = potential.obstacle_places().shifts;
   double dissipated = 0.;
   const auto accept = [&dissipated](const auto &pairs, auto &points)
   {

@@ -21,6 +21,20 @@ ContactPotential<dim>::ContactPotential(const ContactSurface<dim> &contact_surfa
                                         PotentialSettings settings)
     : surface(contact_surface), pairs(contact_surface, std::move(obstacles), std::move(settings))
 {
+  places.shifts.assign(pairs.obstacles().size(), SpatialVector<dim>::Zero());
+  places.velocities = places.shifts;
+  places_before = places;
+}
+
+template <int dim>
+void ContactPotential<dim>::move_obstacles(const ObstaclePlaces<dim> &new_places)
+{
+  if (has_pairs && new_places.time == places.time)
+    return;
+  places_before = has_pairs ? places : new_places;
+  places = new_places;
+  pairs.move_obstacles(places.shifts);
+  is_evaluated = false;
 }
 
 template <int dim>
@@ -181,6 +195,8 @@ double ContactPotential<dim>::depth_rate(const NearPair &near,
   SpatialVector<dim> gap_rate = SpatialVector<dim>::Zero();
   for (unsigned int a = 0; a < near.stencil.n_nodes; ++a)
     gap_rate += near.stencil.weight[a] * velocities[near.stencil.node[a]];
+  if (near.target == nullptr)
+    gap_rate -= places.velocities[near.pair.target];
   return -near.foot.normal.dot(gap_rate);
 }
 

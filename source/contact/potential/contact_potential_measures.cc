@@ -36,9 +36,9 @@ void ContactPotential<dim>::add_to_measures(const NearPair &near, ContactMeasure
   measures.area += near.pair.area;
   measures.max_penetration = std::max(measures.max_penetration, depth);
   measures.max_pressure = std::max(measures.max_pressure, near.pressure());
-  const double thickness = near.target == nullptr
-                               ? near.contactor.layer_thickness
-                               : std::min(near.contactor.layer_thickness, near.target->room);
+  const double room =
+      near.target == nullptr ? pairs.obstacles()[near.pair.target]->room() : near.target->room;
+  const double thickness = std::min(near.contactor.layer_thickness, room);
   if (depth / thickness > measures.max_penetration_over_thickness)
   {
     measures.max_penetration_over_thickness = depth / thickness;
@@ -85,6 +85,26 @@ ContactPotential<dim>::sum_by_pair(const std::function<SpatialVector<dim>(const 
                              add(forces.bodies, body, other, force);
                            else
                              add(forces.bodies, other, body, -force);
+                         });
+  return forces;
+}
+
+template <int dim>
+ObstacleForces<dim>
+ContactPotential<dim>::obstacle_forces(const std::vector<SpatialVector<dim>> &velocities) const
+{
+  const Positions zeros(pairs.obstacles().size(), SpatialVector<dim>::Zero());
+  ObstacleForces<dim> forces{zeros, zeros};
+  for_each_overlap_above(0.,
+                         [&](const NearPair &near)
+                         {
+                           if (near.target != nullptr)
+                             return;
+                           forces.conservative[near.pair.target] += near.force();
+                           if (pairs.settings().damping_ratio)
+                             forces.damping[near.pair.target] +=
+                                 near.pair.area * damping_pressure(near, depth_rate(near, velocities)) *
+                                 near.foot.normal;
                          });
   return forces;
 }

@@ -28,9 +28,10 @@ double compute_layer_mass(const Facet<dim> &contactor, const Facet<dim> *target)
 template <int dim>
 PairList<dim>::PairList(const ContactSurface<dim> &contact_surface, Obstacles rigid_obstacles,
                         PotentialSettings potential_settings)
-    : surface(contact_surface), obstacles_(std::move(rigid_obstacles)),
-      settings_(std::move(potential_settings)), skin_(compute_skin()), reach_(compute_reach()),
-      neighbour_list(make_neighbour_list())
+    : surface(contact_surface), given_obstacles(std::move(rigid_obstacles)), obstacles_(given_obstacles),
+      shifts_of_obstacles(obstacles_.size(), SpatialVector<dim>::Zero()),
+      shifts_at_search(shifts_of_obstacles), settings_(std::move(potential_settings)), skin_(compute_skin()),
+      reach_(compute_reach()), neighbour_list(make_neighbour_list())
 {
   for (const Facet<dim> &facet : surface.facets)
     largest_motion_factor = std::max(largest_motion_factor, lebesgue_constant(facet));
@@ -94,10 +95,31 @@ NeighbourList<dim> PairList<dim>::make_neighbour_list() const
 }
 
 template <int dim>
+bool PairList<dim>::is_stale(const Positions &positions) const
+{
+  for (std::size_t i = 0; i < obstacles_.size(); ++i)
+    if (!((shifts_of_obstacles[i] - shifts_at_search[i]).norm() <= .5 * skin_))
+      return true;
+  return neighbour_list.is_stale(positions);
+}
+
+template <int dim>
+void PairList<dim>::move_obstacles(const Positions &shifts)
+{
+  for (std::size_t i = 0; i < obstacles_.size(); ++i)
+    if (shifts[i] != shifts_of_obstacles[i])
+      obstacles_[i] = given_obstacles[i]->moved(shifts[i]);
+  shifts_of_obstacles = shifts;
+}
+
+template <int dim>
 void PairList<dim>::renew(const Positions &positions)
 {
-  if (neighbour_list.is_stale(positions))
+  if (is_stale(positions))
+  {
     neighbour_list.rebuild(positions);
+    shifts_at_search = shifts_of_obstacles;
+  }
   positions_at_renewal = positions;
   ++n_renewals_;
 

@@ -16,6 +16,39 @@ class MotionMarking : public testing::Test
 };
 TYPED_TEST_SUITE(MotionMarking, LinearCases);
 
+/// Whether any cell of a ball 2 above a floor is near contact within 1 s while the floor rises, 1 s after the
+/// start.
+template <int dim>
+bool is_met_by_floor(const std::string &height)
+{
+  BodyParameters ball = make_ball("ball", 1., 1);
+  ball.placement.shift[dim - 1] = 3.;
+  const BuiltScene<dim> built({ball}, 1,
+                              [&](Parameters &p)
+                              {
+                                p.obstacles = {make_floor<dim>(0.)};
+                                p.obstacles[0].displacement.assign(dim, "0");
+                                p.obstacles[0].displacement[dim - 1] = height;
+                              });
+  State state = built.state;
+  state.time = 1.;
+  const std::vector<bool> is_near =
+      find_cells_near_contact(built.scene, ContactParameters(), built.discretization, built.map,
+                              collect_boundary_faces(built.discretization, &built.map),
+                              FileLevels<dim>(built.parameters.bodies), state, 1.);
+  const int is_any = std::count(is_near.begin(), is_near.end(), true) > 0 ? 1 : 0;
+  return dealii::Utilities::MPI::max(is_any, MPI_COMM_WORLD) == 1;
+}
+
+TYPED_TEST(MotionMarking, AnObstacleThatComesIsContactThatIsComing)
+{
+  constexpr int dim = TypeParam::dim;
+  EXPECT_FALSE(is_met_by_floor<dim>("0"));
+  EXPECT_TRUE(is_met_by_floor<dim>("if(t < 0.5, 3.9*t, 1.95)")) << "there already";
+  EXPECT_TRUE(is_met_by_floor<dim>("t")) << "coming";
+  EXPECT_FALSE(is_met_by_floor<dim>("-t")) << "going";
+}
+
 /// A ball over a graded block.
 template <int dim>
 struct Approach

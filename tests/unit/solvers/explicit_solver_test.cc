@@ -229,6 +229,39 @@ TYPED_TEST(Explicit, WorkOfMovingSupportsIsTheEnergyGained)
   EXPECT_LT(drift[1], drift[0] / 1.8);
 }
 
+TYPED_TEST(Explicit, WorkOfMovingObstaclesIsTheEnergyGained)
+{
+  constexpr int dim = TypeParam::dim;
+  std::array<double, 2> drift;
+  for (unsigned int halving = 0; halving < 2; ++halving)
+  {
+    BuiltScene<dim> built({make_graded_cube()}, TypeParam::degree,
+                          [](Parameters &p)
+                          {
+                            p.obstacles = {make_floor<dim>(.002)};
+                            p.obstacles[0].displacement.assign(dim, "0");
+                            p.obstacles[0].displacement[0] = ".1*t"; // along the floor: no work
+                            p.obstacles[0].displacement[dim - 1] = ".2*t^2";
+                          });
+    contact::PotentialSettings settings = make_settings(contact::Integration::face_quadrature);
+    settings.damping_ratio = .3;
+    built.add_contact(settings);
+    Run<dim> run(built);
+    const double time_step = run.solver.stable_step() / (4 << halving);
+    drift[halving] = run.advance(static_cast<unsigned int>(.8 / time_step), time_step);
+    const EnergyLedger &energy = run.solver.energy();
+    EXPECT_GT(energy.dissipated, 0.);
+    EXPECT_GT(energy.work_of_obstacles, .01);
+    EXPECT_NEAR(energy.work_of_obstacles + energy.initial,
+                energy.kinetic + energy.elastic + energy.contact + energy.dissipated,
+                .01 * energy.work_of_obstacles);
+    EXPECT_LT(run.solver.momentum().linear_drift(), 1e-12);
+    EXPECT_LT(run.solver.momentum().angular_drift(), 1e-12);
+  }
+  EXPECT_LT(drift[1], .01);
+  EXPECT_GT(drift[0] / drift[1], 1.8);
+}
+
 TYPED_TEST(Explicit, SupportsCarryABodyWithTheWorkOfItsKineticEnergy)
 {
   constexpr int dim = TypeParam::dim;

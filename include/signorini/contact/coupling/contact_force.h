@@ -6,6 +6,7 @@
 #include "signorini/contact/potential/contact_problem.h"
 #include "signorini/discretization/surface_map.h"
 #include "signorini/physics/force_term.h"
+#include "signorini/scene/obstacle_motion.h"
 
 #include <optional>
 
@@ -21,6 +22,9 @@ public:
   ContactForce(const std::string &name, bool is_external, const SurfaceMap<dim> &map,
                const typename contact::ContactPotential<dim>::Obstacles &obstacles,
                const contact::PotentialSettings &settings, const MPI_Comm &communicator);
+
+  /// Lets the obstacles move from now on; one motion each.
+  void set_motions(const std::vector<ObstacleMotion<dim>> &obstacle_motions) { motions = obstacle_motions; }
 
   double renew(const State &state) override;
   void update(const State &state) override;
@@ -55,6 +59,12 @@ public:
   void add_row_sum_bounds(Vector &stiffness, Vector &damping) const override;
   contact::ContactMeasures<dim> measure() const override;
   contact::PairForces<dim> pair_forces(const State &state) const override;
+
+  /// See ContactPotential::obstacle_forces(), over all ranks (collective).
+  contact::ObstacleForces<dim> obstacle_forces(const Vector &velocity) const;
+
+  /// By how much each obstacle moved from the time before to that of the last update [m].
+  std::vector<SpatialVector<dim>> obstacle_increments() const;
 
   /// Pressure by node of the whole surface, the same on all ranks, where there is area that faces another
   /// surface: force without damping over that area; of quadratic triangles, whose corners have no area, both
@@ -95,6 +105,8 @@ public:
   const contact::ContactPotential<dim> &surface_potential() const { return potential; }
 
 private:
+  /// Puts the obstacles where they are at that time.
+  void move_obstacles(double time);
   /// Force by node, without damping, the same on all ranks [N] (collective).
   std::vector<SpatialVector<dim>> nodal_forces() const;
   /// Area by node, ∫N dA over the sampled parts of the faces that face another surface, the same on all ranks
@@ -104,5 +116,6 @@ private:
   const SurfaceMap<dim> *map;
   contact::ContactPotential<dim> potential;
   bool is_frozen = false;
+  std::vector<ObstacleMotion<dim>> motions; ///< one an obstacle; empty if none moves
 };
 } // namespace signorini

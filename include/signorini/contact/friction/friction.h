@@ -93,5 +93,6 @@ private:
   SlipHistory<dim> history;
   std::vector<PlacedSlip<dim>> remembered; ///< until the first evaluation
   Positions old_positions;                 ///< of the last commit; empty before the first
+  Positions old_shifts;                    ///< of the obstacles, then
 };
 } // namespace signorini::contact

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "signorini/contact/potential/contact_measures.h"
+#include "signorini/contact/potential/obstacle_places.h"
 #include "signorini/contact/potential/pair_list.h"
 
 #include <algorithm>
@@ -42,12 +43,20 @@ public:
   ContactPotential(const ContactSurface<dim> &contact_surface, Obstacles obstacles,
                    PotentialSettings settings);
 
+  /// Moves the obstacles, which do not move before the first call. Called again with the time of the present
+  /// places it does nothing; update() and evaluate() must follow it at another.
+  void move_obstacles(const ObstaclePlaces<dim> &places);
+
+  /// Where the obstacles are, and where they were at the time before: the same after the first call.
+  const ObstaclePlaces<dim> &obstacle_places() const { return places; }
+  const ObstaclePlaces<dim> &obstacle_places_before() const { return places_before; }
+
   /// Renews neighbours and points where that is needed: never more often than every half skin of motion with
   /// face quadrature, at every call with face segments. Returns the jump of the stored energy [J] that the
   /// renewal caused at these positions, exactly 0 if no point and no stiffness changed, and 0 the first time.
   double update(const Positions &positions);
 
-  /// Whether some node moved so far since the last renewal that neighbours may be missing.
+  /// Whether some node or obstacle moved so far since the last renewal that neighbours may be missing.
   bool is_stale(const Positions &positions) const;
 
   /// Finds the feet of all points. Everything below speaks of these positions.
@@ -99,6 +108,9 @@ public:
 
   /// Resultants by pair; with the damping of these velocities of the nodes, unless there are none.
   PairForces<dim> pair_forces(const std::vector<SpatialVector<dim>> &velocities) const;
+
+  /// Resultants by obstacle; the damping at these velocities of the nodes.
+  ObstacleForces<dim> obstacle_forces(const std::vector<SpatialVector<dim>> &velocities) const;
 
   /// Which owned facets have a point in contact, [facet].
   std::vector<bool> active_facets() const;
@@ -190,6 +202,7 @@ private:
 
   const ContactSurface<dim> &surface;
   PairList<dim> pairs;
+  ObstaclePlaces<dim> places, places_before;
   bool has_pairs = false;
   bool is_evaluated = false;
 

@@ -13,7 +13,7 @@
 
 namespace signorini::contact
 {
-/// All pairs that may be in contact until some node has moved by half the skin.
+/// All pairs that may be in contact until some node or some obstacle has moved by half the skin.
 ///
 /// A point sees another body's surface as deep as its own facet's layer thickness, and any depth of an
 /// obstacle. Pairs too far from their target to touch it before the next renewal are left out.
@@ -30,12 +30,15 @@ public:
   PairList(const ContactSurface<dim> &contact_surface, Obstacles rigid_obstacles,
            PotentialSettings potential_settings);
 
-  bool is_stale(const Positions &positions) const { return neighbour_list.is_stale(positions); }
+  bool is_stale(const Positions &positions) const;
+
+  /// Puts each obstacle at this shift from the place it was given at [m].
+  void move_obstacles(const Positions &shifts);
 
   unsigned int n_searches() const { return neighbour_list.n_rebuilds(); }
   const std::vector<FacetNeighbours> &neighbours() const { return neighbour_list.neighbours(); }
 
-  /// Makes all pairs anew; the neighbour list only if it is stale.
+  /// Makes all pairs anew; the neighbour list only if is_stale().
   void renew(const Positions &positions);
 
   /// How often pairs were made: between two renewals each keeps its place in its list.
@@ -46,6 +49,7 @@ public:
   /// In the order of the obstacles.
   const Pairs &obstacle_pairs() const { return obstacle_pairs_; }
 
+  /// Where they are now.
   const Obstacles &obstacles() const { return obstacles_; }
   const PotentialSettings &settings() const { return settings_; }
   double skin() const { return skin_; } ///< [m]
@@ -104,7 +108,9 @@ private:
   void set_offset(ContactPair<dim> &pair) const;
 
   const ContactSurface<dim> &surface;
+  const Obstacles given_obstacles;
   Obstacles obstacles_;
+  Positions shifts_of_obstacles, shifts_at_search; ///< one an obstacle
   PotentialSettings settings_;
   double skin_;
   std::vector<double> reach_;

@@ -28,7 +28,8 @@ find_coming_contact(const ContactSurface<dim> &surface, const StraightMotion<dim
                     const std::vector<double> &margins,
                     const std::function<bool(unsigned int body, unsigned int other_body)> &is_allowed_pair);
 
-/// The same with a fixed obstacle, which has been moved to the surface's origin.
+/// The same with an obstacle, which has been moved to where it is from the surface's origin; velocities are
+/// those seen from it.
 template <int dim>
 std::vector<unsigned int>
 find_coming_contact(const ContactSurface<dim> &surface, const StraightMotion<dim> &motion,
