@@ -2,6 +2,8 @@
 #include "signorini/output/exact_solution.h"
 
 #include "signorini/base/exceptions.h"
+#include "signorini/output/error_rows.h"
+#include "signorini/output/impact_solutions.h"
 #include "signorini/output/rough_plane.h"
 #include "signorini/parameters/exact_solution_parameters.h"
 
@@ -16,30 +18,9 @@ namespace
 {
 const double pi = std::acos(-1.);
 
-ErrorRow compare(const std::string &quantity, double computed, double exact)
-{
-  return {quantity, computed, exact, (computed - exact) / std::abs(exact)};
-}
-
-/// 1/E* = Σ (1 − ν²)/E over the bodies, all of which touch: two touch each other, one a rigid obstacle
-/// (checked when the parameters are read).
-double contact_modulus(const Parameters &parameters)
-{
-  double compliance = 0.;
-  for (const BodyParameters &body : parameters.bodies)
-    compliance +=
-        (1. - body.material.poissons_ratio * body.material.poissons_ratio) / body.material.youngs_modulus;
-  return 1. / compliance;
-}
-
 bool is_hertz_cylinder(const Parameters &parameters)
 {
   return parameters.exact_solution->name == "Hertz cylinder";
-}
-
-double norm(const std::array<double, 3> &vector)
-{
-  return std::hypot(vector[0], vector[1], vector[2]);
 }
 
 /// Hertz's answers for the force that was measured.
@@ -211,68 +192,6 @@ std::vector<ErrorRow> sliding_contact(const Results<dim> &results)
           {"largest tangential force over the normal one", drag, 0., drag}};
 }
 
-/// Time from the first to the last touch, from rows with a contact force.
-double contact_duration(const std::vector<HistoryRow> &history)
-{
-  double first = -1., last = -1.;
-  for (std::size_t i = 1; i < history.size(); ++i)
-    if (norm(history[i].bodies.at(0).contact_force) > 0.)
-    {
-      first = first < 0. ? 0.5 * (history[i - 1].time + history[i].time) : first;
-      last = i + 1 < history.size() ? 0.5 * (history[i].time + history[i + 1].time) : history[i].time;
-    }
-  return last - first;
-}
-
-template <int dim>
-std::vector<ErrorRow> bar_impact(const Results<dim> &results)
-{
-  const BodyParameters &bar = results.parameters->bodies.at(0);
-  const double length = bar.mesh.upper_corner[dim - 1] - bar.mesh.lower_corner[dim - 1];
-  const double wave_speed = std::sqrt(bar.material.youngs_modulus / bar.material.density);
-  const HistoryRow &start = results.history.front(), &end = results.history.back();
-  const double v_one = start.bodies.at(0).velocity[dim - 1], v_other = start.bodies.at(1).velocity[dim - 1];
-  const double exchanged = end.bodies.at(0).velocity[dim - 1] - v_one;
-  double peak_force = 0.;
-  for (const HistoryRow &row : results.history)
-    peak_force = std::max(peak_force, norm(row.bodies.at(0).contact_force));
-  const double area = results.body_volumes.at(0) / length;
-  const double exact_force = 0.5 * bar.material.density * wave_speed * std::abs(v_other - v_one) * area;
-  const EnergyLedger &energy = results.energy;
-  return {compare("momentum exchange (velocity)", exchanged, v_other - v_one),
-          compare("mechanical energy", energy.kinetic + energy.elastic + energy.contact, energy.initial),
-          compare("contact time", contact_duration(results.history), 2. * length / wave_speed),
-          compare("peak contact force (with the dashpots')", peak_force, exact_force)};
-}
-
-/// Time integral of the contact force on the first body along the last axis, from the rows of the history.
-template <int dim>
-double contact_impulse(const std::vector<HistoryRow> &history)
-{
-  double impulse = 0.;
-  for (std::size_t i = 1; i < history.size(); ++i)
-    impulse +=
-        0.5 * (history[i].time - history[i - 1].time) *
-        (history[i - 1].bodies.at(0).contact_force[dim - 1] + history[i].bodies.at(0).contact_force[dim - 1]);
-  return impulse;
-}
-
-template <int dim>
-std::vector<ErrorRow> bounce(const Results<dim> &results)
-{
-  const HistoryRow &start = results.history.front(), &end = results.history.back();
-  // The dashpot is scaled with the mass of half a layer of elements but moves all of the block's layers.
-  const MeshParameters &mesh = results.parameters->bodies.at(0).mesh;
-  const double n_layers = mesh.cells[dim - 1] * std::pow(2., mesh.refinements);
-  const double ratio = results.parameters->contact->damping->damping_ratio / std::sqrt(2. * n_layers);
-  const double v_start = std::abs(start.bodies.at(0).velocity[dim - 1]), e = restitution(ratio);
-  const double mass = results.body_masses.at(0);
-  return {
-      compare("restitution", end.bodies.at(0).velocity[dim - 1] / v_start, e),
-      compare("impulse of the obstacle", contact_impulse<dim>(results.history), mass * (1. + e) * v_start),
-      compare("dissipated energy", results.energy.dissipated, 0.5 * mass * v_start * v_start * (1. - e * e))};
-}
-
 /// When there must be contact for a comparison.
 enum class Touching
 {
@@ -309,8 +228,9 @@ const std::vector<Case<dim>> &cases()
                                             {"Squeezed bars", Touching::at_the_end, squeezed_bars<dim>},
                                             {"Patch", Touching::at_the_end, patch<dim>},
                                             {"Sliding contact", Touching::at_the_end, sliding_contact<dim>},
-                                            {"Bar impact", Touching::once, bar_impact<dim>},
-                                            {"Bounce", Touching::once, bounce<dim>},
+                                            {"Bar impact", Touching::once, compare_with_bar_impact<dim>},
+                                            {"Ball impact", Touching::once, compare_with_ball_impact<dim>},
+                                            {"Bounce", Touching::once, compare_with_bounce<dim>},
                                             {"Rough plane", Touching::once, compare_with_rough_plane<dim>},
                                             {"Displacement", Touching::never, displacement<dim>}};
   return table;
@@ -377,15 +297,6 @@ double exact_pressure(const Results<dim> &results, double radius)
   const Hertz exact = solve_hertz(results);
   return radius < exact.radius ? exact.peak_pressure * std::sqrt(1. - std::pow(radius / exact.radius, 2))
                                : 0.;
-}
-
-double restitution(double damping_ratio)
-{
-  // Doubling the angle turns the usual π − atan(2ξ√(1−ξ²)/(1−2ξ²)) into 2 acos ξ, which goes on beyond ξ = 1.
-  const double xi = damping_ratio;
-  if (xi < 1.)
-    return std::exp(-2. * xi * std::acos(xi) / std::sqrt(1. - xi * xi));
-  return xi > 1. ? std::exp(-2. * xi * std::acosh(xi) / std::sqrt(xi * xi - 1.)) : std::exp(-2.);
 }
 
 template std::vector<ErrorRow> compute_errors<2>(const Results<2> &);

@@ -37,7 +37,7 @@ constexpr const char *displacement_key = "Displacement";
 const std::vector<ExactSolutionCase> &exact_solutions()
 {
   static const ExactSolutionKey radius{"Radius", positive_length(), "", "m",
-                                       "Hertz: radius of the round body, for two round bodies the effective "
+                                       "Hertz, Ball impact: radius of the round body, for two round bodies the effective "
                                        "one 1/(1/R1 + 1/R2); must agree with the meshes within 1e-6."};
   static const ExactSolutionKey fraction{
       "Fraction of the contact", number_above_up_to(0., 1.), "1", "",
@@ -86,6 +86,11 @@ const std::vector<ExactSolutionCase> &exact_solutions()
         shifts_only()},
        {"momentum exchange (velocity)", "mechanical energy", "contact time",
         "peak contact force (with the dashpots')"}},
+      {"Ball impact",
+       {radius},
+       {dimension_equal_to(3), run_in_motion(), one_touching_pair(), round_or_plane, contact(),
+        surface_potential(), matching_radius()},
+       {"peak contact force", "contact time", "mechanical energy"}},
       {"Bounce",
        {},
        {run_in_motion(), number_of_bodies(1), boxes_only(), number_of_obstacles(1), fixed_planes,

@@ -99,7 +99,7 @@ void check_quasi_static(const ParameterText &text, const Parameters &parameters)
 }
 
 /// Things that only an equilibrium has.
-void check_motion(const ParameterText &text, const Parameters &parameters)
+void check_equilibrium_only(const ParameterText &text, const Parameters &parameters)
 {
   const std::string run = name_of(parameters.solver);
   const auto complain = [&](const std::string &what, const std::string &place)
@@ -227,7 +227,7 @@ void check_together(const ParameterText &text, const Parameters &parameters)
   if (std::holds_alternative<QuasiStaticParameters>(parameters.solver))
     check_quasi_static(text, parameters);
   else
-    check_motion(text, parameters);
+    check_equilibrium_only(text, parameters);
   check_implicit_contact(text, parameters);
   check_contact_error(text, parameters);
   check_degree_of_potential(text, parameters);

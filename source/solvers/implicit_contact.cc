@@ -124,6 +124,19 @@ auto ImplicitContact<dim>::move(const Vector &start, double time_step, const Vec
   booking.dissipated = -(damping_force * way);
   booking.loss = dealii::Utilities::MPI::sum(gain, discretization->communicator()) - spring_force * way -
                  (stored - stored_before);
+  for (const auto &term : *terms)
+  {
+    const contact::ObstacleForces<dim> obstacle_forces = term->obstacle_forces(state.velocity);
+    const std::vector<SpatialVector<dim>> increments = term->obstacle_increments();
+    for (std::size_t o = 0; o < increments.size(); ++o)
+    {
+      const double work = obstacle_forces.conservative[o].dot(increments[o]),
+                   dissipation = obstacle_forces.damping[o].dot(increments[o]);
+      booking.work_of_obstacles += work + dissipation;
+      booking.dissipated += dissipation;
+      booking.loss += work;
+    }
+  }
   booking.outer_impulse = sum_over_nodes(*discretization, start, outer_force);
   for (unsigned int d = 0; d < 3; ++d)
   {

@@ -110,7 +110,10 @@ std::optional<Complaint> ImplicitSolver<dim>::step(double step_length, State &st
   impulse->set(driving, before.displacement);
   forces->elasticity->set_step_start(&before.displacement);
   for (const auto &contact : forces->surface_contacts)
+  {
     contact->thaw();
+    contact->update(before); // a step that was given up may have left obstacles elsewhere
+  }
   const bool is_solved = newton.solve(end.time, state, report) && settle_contact(state, report);
   if (is_solved)
   {
@@ -226,6 +229,17 @@ void ImplicitSolver<dim>::accept(const State &state)
   EnergyLedger &energy = this->energy_ledger;
   energy.work_of_loads += load_force * way;
   energy.contact_loss -= contact_force * way + contact_energy - contact_energy_before;
+  for (const auto &contact : forces->moving_contacts)
+  {
+    const contact::ObstacleForces<dim> obstacle_forces = contact->obstacle_forces(state.velocity);
+    const std::vector<SpatialVector<dim>> increments = contact->obstacle_increments();
+    for (std::size_t o = 0; o < increments.size(); ++o)
+    {
+      const double work = obstacle_forces.conservative[o].dot(increments[o]);
+      energy.work_of_obstacles += work;
+      energy.contact_loss += work;
+    }
+  }
   if (!supports->entries().empty())
     book_supports(state);
 }

@@ -17,6 +17,4 @@ bool has_exact_profile(const Parameters &parameters);
 template <int dim>
 double exact_pressure(const Results<dim> &results, double radius);
 
-/// Restitution of a linear spring–dashpot that is released when its force vanishes.
-double restitution(double damping_ratio);
 } // namespace signorini

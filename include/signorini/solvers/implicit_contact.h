@@ -28,6 +28,7 @@ public:
   {
     double loss = 0.;              ///< energy that the step took out of motion and contact [J]
     double dissipated = 0.;        ///< by the damping [J]
+    double work_of_obstacles = 0.; ///< that of what moves them [J]
     VectorAndMoment outer_impulse; ///< of obstacles, about the start of the step [N s]
   };
 

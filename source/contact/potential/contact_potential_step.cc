@@ -60,9 +60,15 @@ void ContactPotential<dim>::linearize(const Positions &start)
   Positions motion = evaluated_positions;
   for (std::size_t node = 0; node < motion.size(); ++node)
     motion[node] -= start[node];
-  for_each_overlap_above(
-      std::numeric_limits<double>::lowest(), [&](const NearPair &near)
-      { start_depths[near.index] = near.foot.depth + near.foot.normal.dot(weigh(near.stencil, motion)); });
+  for_each_overlap_above(std::numeric_limits<double>::lowest(),
+                         [&](const NearPair &near)
+                         {
+                           SpatialVector<dim> moved = weigh(near.stencil, motion);
+                           if (near.target == nullptr)
+                             moved -=
+                                 places.shifts[near.pair.target] - places_before.shifts[near.pair.target];
+                           start_depths[near.index] = near.foot.depth + near.foot.normal.dot(moved);
+                         });
 }
 
 template <int dim>

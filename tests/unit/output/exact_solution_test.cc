@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "signorini/output/exact_solution.h"
+#include "signorini/output/impact_solutions.h"
 
 #include "signorini/base/exceptions.h"
 #include "signorini/output/rough_plane.h"
@@ -121,5 +122,33 @@ TEST(ExactSolution, IsNotComparedWithWhereNothingTouches)
   }
   parameters.exact_solution->name = "Bounce";
   EXPECT_THROW(compute_errors(results), NumericalError);
+}
+
+/// A mass on a spring with the force K δ^(3/2), step by step.
+BallImpact simulate_ball_impact(double modulus, double radius, double mass, double speed)
+{
+  const double K = 4. / 3. * modulus * std::sqrt(radius), step = 1e-5 * std::sqrt(mass / (modulus * radius));
+  double depth = 0., velocity = speed, force = 0.;
+  BallImpact impact;
+  do
+  {
+    velocity -= 0.5 * step * force / mass;
+    depth += step * velocity;
+    force = K * std::pow(std::max(depth, 0.), 1.5);
+    velocity -= 0.5 * step * force / mass;
+    impact.duration += step;
+    impact.approach = std::max(impact.approach, depth);
+    impact.peak_force = std::max(impact.peak_force, force);
+  } while (depth > 0.);
+  return impact;
+}
+
+TEST(ExactSolution, BallImpactIsThatOfASpringOfHertz)
+{
+  const BallImpact exact = solve_ball_impact(3., 2., 5., 0.1),
+                   simulated = simulate_ball_impact(3., 2., 5., 0.1);
+  EXPECT_NEAR(exact.approach, simulated.approach, 1e-4 * exact.approach);
+  EXPECT_NEAR(exact.peak_force, simulated.peak_force, 1e-4 * exact.peak_force);
+  EXPECT_NEAR(exact.duration, simulated.duration, 1e-4 * exact.duration);
 }
 } // namespace
