@@ -98,7 +98,7 @@ const std::vector<ExactSolutionCase> &exact_solutions()
        {"restitution", "impulse of the obstacle", "dissipated energy"}},
       {"Rough plane",
        {},
-       {run_in_motion(), number_of_bodies(1), boxes_only(), number_of_obstacles(1), planes_only(),
+       {run_in_motion(), number_of_bodies(1), boxes_only(), number_of_obstacles(1), fixed_planes,
         contact_friction(), shifts_only(), sliding_on_a_line()},
        {"way along the plane", "energy rubbed off"}},
       {"Displacement",

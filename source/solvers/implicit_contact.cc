@@ -127,11 +127,11 @@ auto ImplicitContact<dim>::move(const Vector &start, double time_step, const Vec
   for (const auto &term : *terms)
   {
     const contact::ObstacleForces<dim> obstacle_forces = term->obstacle_forces(state.velocity);
-    const std::vector<SpatialVector<dim>> increments = term->obstacle_increments();
-    for (std::size_t o = 0; o < increments.size(); ++o)
+    const std::vector<SpatialVector<dim>> moved = term->obstacle_increments();
+    for (std::size_t o = 0; o < moved.size(); ++o)
     {
-      const double work = obstacle_forces.conservative[o].dot(increments[o]),
-                   dissipation = obstacle_forces.damping[o].dot(increments[o]);
+      const double work = obstacle_forces.conservative[o].dot(moved[o]),
+                   dissipation = obstacle_forces.damping[o].dot(moved[o]);
       booking.work_of_obstacles += work + dissipation;
       booking.dissipated += dissipation;
       booking.loss += work;
