@@ -48,7 +48,8 @@ def energy_ledger(run):
     """All energies with their sum, and below it the residual of the ledger where there is one."""
     table = run.statistics
     progress = axis_of(table)
-    parts = [name for name in ("kinetic energy", "elastic energy", "contact energy", "dissipated since the start")
+    parts = [name for name in ("kinetic energy", "elastic energy", "contact energy", "dissipated since the start",
+                               "rubbed off since the start")
              if table.has_values(name) and any(finite(table[name]))]
     if not parts or not progress:
         return None

@@ -76,9 +76,10 @@ void Simulation<dim>::adapt_in_explicit_run(double time_step)
   fields->set_mesh(*discretization, map_of_pressures());
   measure_bodies();
   const EnergyLedger &energy = explicit_solver->energy();
-  progress.say(fmt::format("t {:.5g}  mesh adapted: {} cells, {} dofs, energy {:+.1e} of the largest",
-                           state.time, results.n_cells, results.n_dofs,
-                           (energy.stored() - before->energy().stored()) / energy.largest));
+  progress.say(
+      fmt::format("t {:.5g}  mesh adapted: {} cells, {} dofs, energy {:+.1e} of the largest", state.time,
+                  results.n_cells, results.n_dofs,
+                  energy.largest > 0. ? (energy.stored() - before->energy().stored()) / energy.largest : 0.));
 }
 
 template class Simulation<2>;

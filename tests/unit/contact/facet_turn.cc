@@ -42,6 +42,27 @@ TYPED_TEST(FacetTurnTest, RigidMotionGivesItsOwnRotation)
     }
 }
 
+/// A rotation that leaves a symmetric stretch and takes normal to normal.
+TYPED_TEST(FacetTurnTest, DeformedFacetsTurnByARotation)
+{
+  constexpr int dim = TypeParam::value;
+  Dice dice(5);
+  for (const FacetElement<dim> &element : testing::all_elements<dim>())
+    for (unsigned int trial = 0; trial < 20; ++trial)
+    {
+      const LocalPoint<dim> xi = testing::make_local_point(element, .1, dice);
+      const FacetBasis<dim> before(testing::make_warped_facet(element, .1, dice), xi),
+          now(testing::make_warped_facet(element, .1, dice), xi);
+      const SpatialTensor<dim> turn = find_turn(before, now);
+      EXPECT_LT((turn.transpose() * turn - SpatialTensor<dim>::Identity()).norm(), 1e-12);
+      EXPECT_LT((turn * before.normal - now.normal).norm(), 1e-12);
+      SpatialTensor<dim> stretch = SpatialTensor<dim>::Zero();
+      for (unsigned int i = 0; i < dim - 1; ++i)
+        stretch += turn.transpose() * now.tangent[i] * before.dual[i].transpose();
+      EXPECT_LT((stretch - stretch.transpose()).norm(), 1e-12);
+    }
+}
+
 TYPED_TEST(FacetTurnTest, CoupleHasItsMomentAndNoResultant)
 {
   constexpr int dim = TypeParam::value;
