@@ -303,6 +303,17 @@ SceneNeed linear_elastic_bodies()
       });
 }
 
+SceneNeed no_viscosity()
+{
+  return every_body("no 'Viscosity'",
+                    [](const ParameterText &text, const std::string &path, const BodyParameters &body)
+                    {
+                      return body.material.viscosity > 0.
+                                 ? MaybeFault(fault_of_entry(text, path + "/Material", "Viscosity", ""))
+                                 : std::nullopt;
+                    });
+}
+
 SceneNeed shifts_only()
 {
   return every_body(

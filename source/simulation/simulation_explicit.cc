@@ -106,6 +106,8 @@ void Simulation<dim>::record_explicit(double time_step, double end)
                       {"ledger residual [1]", energy.residual()},
                       {"linear momentum drift [1]", momentum.linear_drift()},
                       {"angular momentum drift [1]", momentum.angular_drift()}};
+  if (!forces.viscosities.empty())
+    row.emplace_back(joules("dissipated by viscosity since the start"), energy.dissipated_by_viscosity);
   if (!forces.moving_contacts.empty())
     row.emplace_back(joules("work of obstacles since the start"), energy.work_of_obstacles);
   if (parameters.adaptivity)

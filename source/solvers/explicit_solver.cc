@@ -17,8 +17,9 @@ ExplicitSolver<dim>::ExplicitSolver(const Discretization<dim> &the_discretizatio
       forces(&the_forces), parameters(explicit_parameters), run_time(&the_run_time),
       mass(make_lumped_mass(the_materials, the_discretization))
 {
-  for (Vector *vector : {&force, &load_force, &damping_force, &one_damping_force, &external_force, &old_force,
-                         &old_load_force, &old_damping_force})
+  for (Vector *vector :
+       {&force, &load_force, &damping_force, &one_damping_force, &viscous_force, &external_force, &old_force,
+        &old_load_force, &old_damping_force, &old_viscous_force})
     *vector = discretization->make_vector();
   std::vector<bool> is_supported(mass.locally_owned_size(), false);
   for (const unsigned int dof : supports->owned_dofs())
@@ -40,7 +41,7 @@ void ExplicitSolver<dim>::begin(State &state)
   for (const auto &contact : forces->contacts)
     contact->renew(state);
   compute_forces(state, state.velocity);
-  update_bulk_bound();
+  update_bulk_bound(state);
   take_stock(state);
 }
 
@@ -69,9 +70,11 @@ void ExplicitSolver<dim>::resume(const ExplicitSolver &before, const VectorAndMo
 }
 
 template <int dim>
-void ExplicitSolver<dim>::update_bulk_bound()
+void ExplicitSolver<dim>::update_bulk_bound(const State &state)
 {
   bulk_frequency_squared = compute_bulk_frequency_squared(*forces->elasticity, *materials, *discretization);
+  for (const auto &viscosity : forces->viscosities)
+    bulk_damping_rate = compute_bulk_damping_rate(*viscosity, state, *materials, *discretization);
   if (forces->elasticity->is_nonlinear())
     stretches_of_bound = forces->elasticity->stretches();
 }
@@ -104,11 +107,12 @@ double ExplicitSolver<dim>::stable_step() const
     contact_bound = compute_contact_bound(contacts, mass, *discretization);
     n_searches_of_bound = n_searches;
   }
-  const double bulk = parameters.bulk_step_factor * critical_time_step(bulk_frequency_squared, 0.);
+  const double bulk =
+      parameters.bulk_step_factor * critical_time_step(bulk_frequency_squared, bulk_damping_rate);
   if (contact_bound.frequency_squared == 0.)
     return bulk;
   const double with_contact = critical_time_step(bulk_frequency_squared + contact_bound.frequency_squared,
-                                                 contact_bound.damping_rate);
+                                                 bulk_damping_rate + contact_bound.damping_rate);
   return std::min(bulk, parameters.contact_step_factor * with_contact);
 }
 
@@ -125,6 +129,7 @@ void ExplicitSolver<dim>::compute_forces(const State &state, const Vector &veloc
   compute_contact_forces(state, velocity);
   compute_load_forces(state);
   discretization->collect(force);
+  compute_viscous_forces(state, velocity);
   if (!has_external_forces)
     return;
   discretization->collect(external_force);
@@ -159,6 +164,19 @@ void ExplicitSolver<dim>::compute_contact_forces(const State &state, const Vecto
 }
 
 template <int dim>
+void ExplicitSolver<dim>::compute_viscous_forces(const State &state, const Vector &velocity)
+{
+  for (const auto &viscosity : forces->viscosities)
+  {
+    const auto section = run_time->enter("viscosity");
+    viscous_force = 0.;
+    viscosity->add_force(state, velocity, viscous_force);
+    discretization->collect(viscous_force);
+    force += viscous_force;
+  }
+}
+
+template <int dim>
 void ExplicitSolver<dim>::compute_load_forces(const State &state)
 {
   load_force = 0.;
@@ -176,6 +194,7 @@ void ExplicitSolver<dim>::step(double time_step, State &state)
   old_force.swap(force);
   old_load_force.swap(load_force);
   old_damping_force.swap(damping_force);
+  old_viscous_force.swap(viscous_force);
   std::swap(old_external, external);
   old_obstacle_forces.swap(obstacle_forces);
   old_displacement = state.displacement;
@@ -211,7 +230,7 @@ void ExplicitSolver<dim>::step(double time_step, State &state)
   discretization->distribute(state.velocity);
   book_step(state, time_step);
   if (is_bulk_bound_stale())
-    update_bulk_bound();
+    update_bulk_bound(state);
 }
 
 template <int dim>
@@ -223,6 +242,9 @@ void ExplicitSolver<dim>::book_step(const State &state, double time_step)
     energy_ledger.work_of_loads += 0.5 * (old_load_force * increment + load_force * increment);
   if (!forces->damped_contacts.empty())
     energy_ledger.dissipated -= 0.5 * (old_damping_force * increment + damping_force * increment);
+  if (!forces->viscosities.empty())
+    energy_ledger.dissipated_by_viscosity -=
+        0.5 * (old_viscous_force * increment + viscous_force * increment);
   if (has_external_forces)
     for (unsigned int d = 0; d < 3; ++d)
     {

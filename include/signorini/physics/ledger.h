@@ -6,17 +6,18 @@
 namespace signorini
 {
 /// Where the energy of a run is, and what crossed its border [J; J/m in 2-D]. It closes when
-/// kinetic + elastic + contact + dissipated − (work of loads, supports and obstacles) − (renewals and
+/// kinetic + elastic + contact + dissipated (both) − (work of loads, supports and obstacles) − (renewals and
 /// adaptation) stays at its first value.
 struct EnergyLedger
 {
   double kinetic = 0.;
   double elastic = 0.;
   double contact = 0.;
-  double dissipated = 0.;        ///< by contact damping, since the start
-  double work_of_loads = 0.;     ///< since the start
-  double work_of_supports = 0.;  ///< since the start
-  double work_of_obstacles = 0.; ///< that of what moves them, since the start
+  double dissipated = 0.;              ///< by contact damping, since the start
+  double dissipated_by_viscosity = 0.; ///< in the bodies, since the start
+  double work_of_loads = 0.;           ///< since the start
+  double work_of_supports = 0.;        ///< since the start
+  double work_of_obstacles = 0.;       ///< that of what moves them, since the start
   double contact_renewals =
       0.; ///< stored energy that came with renewed contact stiffnesses or points, since the start
   double adaptation = 0.;     ///< by which the sum of the first three jumped with the mesh, since the start

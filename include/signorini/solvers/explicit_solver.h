@@ -49,11 +49,12 @@ public:
 private:
   /// Computes the first forces and the energies and momenta with them.
   void begin(State &state);
-  void update_bulk_bound();
+  void update_bulk_bound(const State &state);
   /// Where the law is not linear, every few steps: has any cell been strained by more than a little since?
   bool is_bulk_bound_stale();
   void compute_forces(const State &state, const Vector &velocity);
   void compute_contact_forces(const State &state, const Vector &velocity);
+  void compute_viscous_forces(const State &state, const Vector &velocity);
   void compute_load_forces(const State &state);
   void book_step(const State &state, double time_step);
   void book_supports(const State &state, double time_step);
@@ -67,15 +68,15 @@ private:
   RunTime *run_time;
 
   Vector mass;
-  Vector force, load_force, damping_force, one_damping_force, external_force;
-  Vector old_force, old_load_force, old_damping_force;
+  Vector force, load_force, damping_force, one_damping_force, viscous_force, external_force;
+  Vector old_force, old_load_force, old_damping_force, old_viscous_force;
   Vector old_displacement, old_velocity, increment;
   std::vector<contact::ObstacleForces<dim>> obstacle_forces, old_obstacle_forces; ///< of the moving contacts
   std::vector<double> half_velocity_of_supports;
   std::vector<unsigned int> dofs_of_supported_nodes; ///< local indices, free components included
   VectorAndMoment external, old_external;
   bool has_external_forces = false;
-  double bulk_frequency_squared = 0.;
+  double bulk_frequency_squared = 0., bulk_damping_rate = 0.;
   std::vector<SpatialTensor<dim>> stretches_of_bound; ///< [own cell]; laws that are not linear only
   unsigned int n_steps = 0;
   mutable ContactBound contact_bound;
