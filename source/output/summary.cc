@@ -119,6 +119,7 @@ Json describe_energy(const Results<dim> &results)
           {"contact", energy.contact},
           {"dissipated", energy.dissipated},
           {"rubbed_off", energy.rubbed_off},
+          {"dissipated_by_viscosity", energy.dissipated_by_viscosity},
           {"work", energy.work_of_loads + energy.work_of_supports},
           {"work_of_obstacles", energy.work_of_obstacles},
           {"contact_renewals", energy.contact_renewals},

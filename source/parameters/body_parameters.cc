@@ -47,6 +47,10 @@ void declare_material(Declarations &declarations, const std::string &path)
   material.add_required("Poisson's ratio", number_between(-1., 0.5), "", "Transverse contraction.");
   material.add("Density", positive_number(), "", "kg/m³",
                "Mass per undeformed volume; needed in explicit runs and with gravity.");
+  material.add(
+      "Viscosity", positive_number(), "", "Pa s",
+      "η: resistance 2η to the rate of the strain's deviator, beside the elastic stress (Kelvin-Voigt); "
+      "absent: none; explicit runs only.");
 }
 
 void declare_motion(Declarations &declarations, const DeclarationScope &scope, const std::string &path)
@@ -115,6 +119,8 @@ MaterialParameters read_material(const SectionReader &section)
   material.poissons_ratio = section.number("Poisson's ratio");
   if (section.given("Density"))
     material.density = section.number("Density");
+  if (section.given("Viscosity"))
+    material.viscosity = section.number("Viscosity");
   return material;
 }
 

@@ -36,9 +36,10 @@ constexpr const char *displacement_key = "Displacement";
 
 const std::vector<ExactSolutionCase> &exact_solutions()
 {
-  static const ExactSolutionKey radius{"Radius", positive_length(), "", "m",
-                                       "Hertz, Ball impact: radius of the round body, for two round bodies the effective "
-                                       "one 1/(1/R1 + 1/R2); must agree with the meshes within 1e-6."};
+  static const ExactSolutionKey radius{
+      "Radius", positive_length(), "", "m",
+      "Hertz, Ball impact: radius of the round body, for two round bodies the effective "
+      "one 1/(1/R1 + 1/R2); must agree with the meshes within 1e-6."};
   static const ExactSolutionKey fraction{
       "Fraction of the contact", number_above_up_to(0., 1.), "1", "",
       "Hertz: share of the contact that is modelled, such as 0.25 for a quarter."};
@@ -82,8 +83,8 @@ const std::vector<ExactSolutionCase> &exact_solutions()
        {"mean normal force", "ripple of the normal force", "largest tangential force over the normal one"}},
       {"Bar impact",
        {},
-       {run_in_motion(), number_of_bodies(2), equal_boxes(), number_of_obstacles(0), contact(),
-        shifts_only()},
+       {run_in_motion(), number_of_bodies(2), equal_boxes(), number_of_obstacles(0), contact(), shifts_only(),
+        no_viscosity()},
        {"momentum exchange (velocity)", "mechanical energy", "contact time",
         "peak contact force (with the dashpots')"}},
       {"Ball impact",
@@ -94,7 +95,7 @@ const std::vector<ExactSolutionCase> &exact_solutions()
       {"Bounce",
        {},
        {run_in_motion(), number_of_bodies(1), boxes_only(), number_of_obstacles(1), fixed_planes,
-        contact_damping(), hexahedra_only(), no_grading()},
+        contact_damping(), hexahedra_only(), no_grading(), no_viscosity()},
        {"restitution", "impulse of the obstacle", "dissipated energy"}},
       {"Rough plane",
        {},

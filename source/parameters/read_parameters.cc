@@ -93,7 +93,15 @@ void check_quasi_static(const ParameterText &text, const Parameters &parameters)
                            .advise("remove the subsection, or run 'Explicit' or 'Implicit'"));
   };
   for (const BodyParameters &body : parameters.bodies)
+  {
     reject("Body " + body.name + "/Initial motion", "without inertia there is no velocity");
+    if (body.material.viscosity > 0.)
+      throw InputError(Complaint("'Viscosity' contradicts 'Quasi-static': without velocity there is no "
+                                 "resistance to it")
+                           .at(text.where("Body " + body.name + "/Material", "Viscosity"))
+                           .found("'Quasi-static' stands at " + text.where("Quasi-static"))
+                           .advise("remove the key, or run 'Explicit'"));
+  }
   reject("Contact/Damping", "without velocity there is no damping");
   reject("Contact/Friction", "friction is there in explicit runs only");
 }
@@ -138,6 +146,9 @@ void check_implicit_contact(const ParameterText &text, const Parameters &paramet
                                   : "remove the one, or set Contact stepping = explicit"));
   };
   reject(is_implicit && parameters.adaptivity, "'Adaptivity'", text.where("Adaptivity"));
+  for (const BodyParameters &body : parameters.bodies)
+    reject(is_implicit && body.material.viscosity > 0., "'Viscosity'",
+           text.where("Body " + body.name + "/Material", "Viscosity"));
   if (!parameters.contact)
     return;
   reject(is_implicit && parameters.contact->damping, "'Contact/Damping'", text.where("Contact/Damping"));

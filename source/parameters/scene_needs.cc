@@ -2,7 +2,6 @@
 #include "signorini/parameters/scene_needs.h"
 
 #include "signorini/parameters/expression.h"
-#include "signorini/parameters/run_parameters.h"
 
 #include <fmt/format.h>
 
@@ -34,20 +33,6 @@ std::string count_bodies(const Parameters &parameters)
 std::string count_obstacles(const Parameters &parameters)
 {
   return count(parameters.obstacles.size(), "obstacle", "obstacles");
-}
-
-/// A run of one of the kinds for which `is_right(solver)`.
-template <typename IsRight>
-SceneNeed run_for_which(const std::string &text, const IsRight &is_right)
-{
-  return {text,
-          [is_right](const ParameterText &file, const Parameters &parameters) -> MaybeFault
-          {
-            if (is_right(parameters.solver))
-              return {};
-            const std::string found = name_of(parameters.solver);
-            return SceneFault{file.where(found), found};
-          }};
 }
 
 /// The first fault that `find_fault(path, body)` sees in a body.
@@ -171,18 +156,6 @@ SceneNeed dimension_equal_to(const unsigned int dimension)
           }};
 }
 
-SceneNeed quasi_static_run()
-{
-  return run_for_which("'Quasi-static'", [](const SolverParameters &solver)
-                       { return std::holds_alternative<QuasiStaticParameters>(solver); });
-}
-
-SceneNeed run_in_motion()
-{
-  return run_for_which("'Explicit' or 'Implicit'", [](const SolverParameters &solver)
-                       { return !std::holds_alternative<QuasiStaticParameters>(solver); });
-}
-
 SceneNeed contact()
 {
   return {"'Contact'",
@@ -304,6 +277,17 @@ SceneNeed linear_elastic_bodies()
           return {};
         return fault_of_entry(text, path + "/Material", "Model", "linear elastic");
       });
+}
+
+SceneNeed no_viscosity()
+{
+  return every_body("no 'Viscosity'",
+                    [](const ParameterText &text, const std::string &path, const BodyParameters &body)
+                    {
+                      return body.material.viscosity > 0.
+                                 ? MaybeFault(fault_of_entry(text, path + "/Material", "Viscosity", ""))
+                                 : std::nullopt;
+                    });
 }
 
 SceneNeed shifts_only()

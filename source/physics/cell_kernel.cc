@@ -6,24 +6,6 @@
 namespace signorini
 {
 template <int dim, typename Law>
-typename CellKernel<dim, Law>::Gradient CellKernel<dim, Law>::displacement_gradient(const CellGeometry &cell,
-                                                                                    unsigned int point,
-                                                                                    const double *u) const
-{
-  double H[dim][dim] = {};
-  const double *g = cell.gradients + point * cell.n_nodes * dim;
-  for (unsigned int a = 0; a < cell.n_nodes; ++a)
-    for (int i = 0; i < dim; ++i)
-      for (int j = 0; j < dim; ++j)
-        H[i][j] += u[a * dim + i] * g[a * dim + j];
-  Gradient gradient;
-  for (int i = 0; i < dim; ++i)
-    for (int j = 0; j < dim; ++j)
-      gradient(i, j) = H[i][j];
-  return gradient;
-}
-
-template <int dim, typename Law>
 void CellKernel<dim, Law>::evaluate_volume(const CellGeometry &cell, const double *u, Order order)
 {
   gradients.resize(cell.n_points);
@@ -33,7 +15,7 @@ void CellKernel<dim, Law>::evaluate_volume(const CellGeometry &cell, const doubl
   double mean_strain = 0.;
   for (unsigned int q = 0; q < cell.n_points; ++q)
   {
-    gradients[q] = displacement_gradient(cell, q, u);
+    gradients[q] = displacement_gradient<dim>(cell, q, u);
     law.volume_strain(gradients[q], order, volume_strains[q]);
     cell_volume += cell.weights[q];
     mean_strain += cell.weights[q] * volume_strains[q].value;
@@ -126,7 +108,7 @@ Eigen::Matrix<double, dim, dim> CellKernel<dim, Law>::mean_stretch(const CellGeo
   double volume = 0.;
   for (unsigned int q = 0; q < cell.n_points; ++q)
   {
-    const Gradient H = displacement_gradient(cell, q, u);
+    const Gradient H = displacement_gradient<dim>(cell, q, u);
     sum += cell.weights[q] * (H + H.transpose() + H.transpose() * H);
     volume += cell.weights[q];
   }

@@ -58,10 +58,7 @@ void InternalForce<dim>::for_each_cell(const Action &action) const
             u.resize(cells.n_cell_dofs(cell));
             for (unsigned int i = 0; i < u.size(); ++i)
               u[i] = displacement->local_element(dofs[i]);
-            action(kernel, cell,
-                   CellGeometry{cells.n_nodes(cell), cells.n_points(cell), cells.cell_gradients(cell),
-                                cells.cell_weights(cell)},
-                   u.data());
+            action(kernel, cell, geometry_of(cells, cell), u.data());
           }
         },
         kernels[body]);

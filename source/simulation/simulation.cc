@@ -50,6 +50,9 @@ void Simulation<dim>::build_on_mesh()
   supports = std::make_unique<SupportedDofs<dim>>(scene, *discretization, end_time);
   forces = SceneForces<dim>();
   forces.elasticity = std::make_shared<InternalForce<dim>>(scene.materials, *discretization);
+  if (std::any_of(scene.materials.begin(), scene.materials.end(),
+                  [](const MaterialParameters &material) { return material.viscosity > 0.; }))
+    forces.viscosities.push_back(std::make_shared<ViscousForce<dim>>(scene.materials, *discretization));
   if (!scene.loads.empty() || scene.gravity.norm() > 0.)
     forces.loads.push_back(std::make_shared<DeadLoad<dim>>(
         scene, *discretization, is_in_motion() ? WeightShares::lumped_mass : WeightShares::shape_integrals));
@@ -79,6 +82,7 @@ void Simulation<dim>::list_parts()
                                                        : is_implicit ? "implicit"
                                                                      : "quasi-static");
   note(true, "elasticity", "");
+  note(!forces.viscosities.empty(), "viscosity", "no Material has a Viscosity");
   note(!forces.loads.empty(), "loads", "no gravity and no subsection Load");
   note(!scene.supports.empty(), "supports", "no subsection Support");
   note(surface_map != nullptr, "contact surface", "no subsection Contact");

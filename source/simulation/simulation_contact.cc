@@ -249,19 +249,21 @@ double Simulation<dim>::limit_time_step(double time_step) const
   for (unsigned int i = 0; i < scene.obstacles.size(); ++i)
   {
     thinnest = std::min(thinnest, scene.obstacles[i]->room());
+    const ObstacleMotion<dim> &motion = scene.obstacle_motions[i];
     motion_of_obstacles =
-        std::max(motion_of_obstacles, time_step * scene.obstacle_motions[i].velocity(state.time).norm());
+        std::max(motion_of_obstacles,
+                 (motion.displacement(state.time + time_step) - motion.displacement(state.time)).norm());
   }
-  const double motion = time_step * state.velocity.linfty_norm() + motion_of_obstacles;
-  if (!(motion > limit * thinnest))
+  const double largest_motion = time_step * state.velocity.linfty_norm() + motion_of_obstacles;
+  if (!(largest_motion > limit * thinnest))
     return time_step;
-  const double share = limit * thinnest / motion;
+  const double share = limit * thinnest / largest_motion;
   if (share < shortest)
     throw NumericalError(
         Complaint(
             fmt::format("bodies{} move by {:.3g} m in one step at t = {:.6g}: they could pass through each "
                         "other unseen",
-                        motion_of_obstacles > 0. ? " and obstacles" : "", motion, state.time))
+                        motion_of_obstacles > 0. ? " and obstacles" : "", largest_motion, state.time))
             .expected(
                 fmt::format("at most {} of the thinnest element, half body or half obstacle, {:.3g} m, or "
                             "the step is shortened, though not below {} of its length",

@@ -18,8 +18,9 @@ ExplicitSolver<dim>::ExplicitSolver(const Discretization<dim> &the_discretizatio
       forces(&the_forces), parameters(explicit_parameters), run_time(&the_run_time),
       mass(make_lumped_mass(the_materials, the_discretization))
 {
-  for (Vector *vector : {&force, &load_force, &damping_force, &one_damping_force, &external_force, &old_force,
-                         &old_load_force, &old_damping_force})
+  for (Vector *vector :
+       {&force, &load_force, &damping_force, &one_damping_force, &viscous_force, &external_force, &old_force,
+        &old_load_force, &old_damping_force, &old_viscous_force})
     *vector = discretization->make_vector();
   std::vector<bool> is_supported(mass.locally_owned_size(), false);
   for (const unsigned int dof : supports->owned_dofs())
@@ -53,7 +54,7 @@ void ExplicitSolver<dim>::begin(State &state)
   compute_forces(state, state.velocity);
   for (const auto &friction : forces->frictions)
     friction->commit();
-  update_bulk_bound();
+  update_bulk_bound(state);
   take_stock(state);
 }
 
@@ -80,9 +81,11 @@ void ExplicitSolver<dim>::resume(const ExplicitSolver &before, const VectorAndMo
 }
 
 template <int dim>
-void ExplicitSolver<dim>::update_bulk_bound()
+void ExplicitSolver<dim>::update_bulk_bound(const State &state)
 {
   bulk_frequency_squared = compute_bulk_frequency_squared(*forces->elasticity, *materials, *discretization);
+  for (const auto &viscosity : forces->viscosities)
+    bulk_damping_rate = compute_bulk_damping_rate(*viscosity, state, *materials, *discretization);
   if (forces->elasticity->is_nonlinear())
     stretches_of_bound = forces->elasticity->stretches();
 }
@@ -104,7 +107,8 @@ bool ExplicitSolver<dim>::is_bulk_bound_stale()
 template <int dim>
 double ExplicitSolver<dim>::stable_step() const
 {
-  const double bulk = parameters.bulk_step_factor * critical_time_step(bulk_frequency_squared, 0.);
+  const double bulk =
+      parameters.bulk_step_factor * critical_time_step(bulk_frequency_squared, bulk_damping_rate);
   if (implicit_contact)
     return bulk;
   unsigned int n_searches = 0;
@@ -121,7 +125,7 @@ double ExplicitSolver<dim>::stable_step() const
   if (contact_bound.frequency_squared == 0.)
     return bulk;
   const double with_contact = critical_time_step(bulk_frequency_squared + contact_bound.frequency_squared,
-                                                 contact_bound.damping_rate);
+                                                 bulk_damping_rate + contact_bound.damping_rate);
   return std::min(bulk, parameters.contact_step_factor * with_contact);
 }
 
@@ -138,6 +142,7 @@ void ExplicitSolver<dim>::compute_forces(const State &state, const Vector &veloc
   compute_contact_forces(state, velocity);
   compute_load_forces(state);
   discretization->collect(force);
+  compute_viscous_forces(state, velocity);
   if (!has_external_forces)
     return;
   discretization->collect(external_force);
@@ -146,39 +151,15 @@ void ExplicitSolver<dim>::compute_forces(const State &state, const Vector &veloc
 }
 
 template <int dim>
-void ExplicitSolver<dim>::compute_contact_forces(const State &state, const Vector &velocity)
+void ExplicitSolver<dim>::compute_viscous_forces(const State &state, const Vector &velocity)
 {
-  if (forces->contacts.empty() || implicit_contact)
-    return;
-  const auto section = run_time->enter("contact");
-  for (const auto &contact : forces->contacts)
+  for (const auto &viscosity : forces->viscosities)
   {
-    contact->update(state);
-    contact->add_force(contact->is_external ? external_force : force);
-  }
-  damping_force = 0.;
-  for (const auto &contact : forces->damped_contacts)
-  {
-    one_damping_force = 0.;
-    contact->add_damping_force(velocity, one_damping_force);
-    damping_force += one_damping_force;
-    (contact->is_external ? external_force : force) += one_damping_force;
-  }
-  if (!forces->damped_contacts.empty())
-    discretization->collect(damping_force);
-  for (const auto &friction : forces->frictions)
-  {
-    friction->update(velocity);
-    friction->add_force(friction->is_external() ? external_force : force);
-  }
-  obstacle_forces.clear();
-  for (const auto &contact : forces->moving_contacts)
-  {
-    obstacle_forces.push_back(contact->obstacle_forces(velocity));
-    for (const auto &friction : forces->frictions)
-      if (friction->is_external())
-        for (const auto &[pair, on_body] : friction->pair_forces().obstacles)
-          obstacle_forces.back().conservative[pair.second] += on_body;
+    const auto section = run_time->enter("viscosity");
+    viscous_force = 0.;
+    viscosity->add_force(state, velocity, viscous_force);
+    discretization->collect(viscous_force);
+    force += viscous_force;
   }
 }
 
@@ -201,6 +182,7 @@ void ExplicitSolver<dim>::step(double time_step, State &state)
   old_force.swap(force);
   old_load_force.swap(load_force);
   old_damping_force.swap(damping_force);
+  old_viscous_force.swap(viscous_force);
   std::swap(old_external, external);
   old_obstacle_forces.swap(obstacle_forces);
   old_displacement = state.displacement;
@@ -242,45 +224,7 @@ void ExplicitSolver<dim>::step(double time_step, State &state)
   if (implicit_contact)
     add_half_step_of_contact(state);
   if (is_bulk_bound_stale())
-    update_bulk_bound();
-}
-
-template <int dim>
-void ExplicitSolver<dim>::move_by_contact(double time_step, State &state)
-{
-  const auto section = run_time->enter("contact");
-  const auto booking = implicit_contact->move(old_displacement, time_step, old_force, state);
-  energy_ledger.contact_loss += booking.loss;
-  energy_ledger.dissipated += booking.dissipated;
-  energy_ledger.work_of_obstacles += booking.work_of_obstacles;
-  for (unsigned int d = 0; d < 3; ++d)
-  {
-    momentum_ledger.linear_impulse[d] += booking.outer_impulse.vector[d];
-    momentum_ledger.angular_impulse[d] += booking.outer_impulse.moment[d];
-  }
-}
-
-template <int dim>
-void ExplicitSolver<dim>::add_half_step_of_contact(State &state)
-{
-  for (unsigned int i = 0; i < mass.locally_owned_size(); ++i)
-    half_step_of_contact.local_element(i) =
-        mass.local_element(i) > 0.
-            ? 0.5 * last_time_step / mass.local_element(i) * implicit_contact->force().local_element(i)
-            : 0.;
-  supports->clear(half_step_of_contact);
-  state.velocity += half_step_of_contact;
-  discretization->distribute(state.velocity);
-}
-
-template <int dim>
-void ExplicitSolver<dim>::suspend(State &state)
-{
-  if (!implicit_contact)
-    return;
-  state.velocity -= half_step_of_contact;
-  half_step_of_contact = 0.;
-  discretization->distribute(state.velocity);
+    update_bulk_bound(state);
 }
 
 template <int dim>
@@ -294,6 +238,9 @@ void ExplicitSolver<dim>::book_step(const State &state, double time_step)
     energy_ledger.dissipated -= 0.5 * (old_damping_force * increment + damping_force * increment);
   for (const auto &friction : forces->frictions)
     energy_ledger.rubbed_off += friction->commit();
+  if (!forces->viscosities.empty())
+    energy_ledger.dissipated_by_viscosity -=
+        0.5 * (old_viscous_force * increment + viscous_force * increment);
   if (has_external_forces)
     for (unsigned int d = 0; d < 3; ++d)
     {
@@ -303,24 +250,6 @@ void ExplicitSolver<dim>::book_step(const State &state, double time_step)
   if (!supports->entries().empty())
     book_supports(state, time_step);
   book_obstacles();
-}
-
-template <int dim>
-void ExplicitSolver<dim>::book_obstacles()
-{
-  for (std::size_t i = 0; i < obstacle_forces.size(); ++i)
-  {
-    const contact::ObstacleForces<dim> &now = obstacle_forces[i], &before = old_obstacle_forces[i];
-    const std::vector<SpatialVector<dim>> increments = forces->moving_contacts[i]->obstacle_increments();
-    for (std::size_t o = 0; o < increments.size(); ++o)
-    {
-      const double dissipation = 0.5 * (before.damping[o] + now.damping[o]).dot(increments[o]);
-      // The damping takes from the bodies less than their own way through its forces, or more.
-      energy_ledger.dissipated += dissipation;
-      energy_ledger.work_of_obstacles +=
-          dissipation + 0.5 * (before.conservative[o] + now.conservative[o]).dot(increments[o]);
-    }
-  }
 }
 
 template <int dim>

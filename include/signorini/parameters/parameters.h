@@ -93,6 +93,7 @@ struct MaterialParameters
   double youngs_modulus = 0.; ///< E > 0 [Pa]
   double poissons_ratio = 0.; ///< −1 < ν < 0.5
   double density = 0.;        ///< ρ > 0 [kg/m³]
+  double viscosity = 0.;      ///< η [Pa s]; 0: none
 };
 
 /// `subsection Support NAME` of a body: prescribed displacement on the boundary NAME; a component left out is

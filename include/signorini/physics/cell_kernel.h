@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
+#include "signorini/discretization/cell_table.h"
 #include "signorini/physics/material.h"
 
 #include <vector>
@@ -15,6 +16,30 @@ struct CellGeometry
   const double *gradients = nullptr; ///< [point][node][direction]
   const double *weights = nullptr;   ///< [point]
 };
+
+template <int dim>
+CellGeometry geometry_of(const CellTable<dim> &cells, unsigned int cell)
+{
+  return {cells.n_nodes(cell), cells.n_points(cell), cells.cell_gradients(cell), cells.cell_weights(cell)};
+}
+
+/// ∂u_i/∂X_j at a point of a cell; `u`: [node][component].
+template <int dim>
+Eigen::Matrix<double, dim, dim> displacement_gradient(const CellGeometry &cell, unsigned int point,
+                                                      const double *u)
+{
+  double H[dim][dim] = {};
+  const double *g = cell.gradients + point * cell.n_nodes * dim;
+  for (unsigned int a = 0; a < cell.n_nodes; ++a)
+    for (int i = 0; i < dim; ++i)
+      for (int j = 0; j < dim; ++j)
+        H[i][j] += u[a * dim + i] * g[a * dim + j];
+  Eigen::Matrix<double, dim, dim> gradient;
+  for (int i = 0; i < dim; ++i)
+    for (int j = 0; j < dim; ++j)
+      gradient(i, j) = H[i][j];
+  return gradient;
+}
 
 /// Energy, force and tangent of one cell of a given law. Keeps its scratch memory between cells.
 ///
@@ -45,8 +70,6 @@ public:
 
 private:
   using Gradient = Eigen::Matrix<double, dim, dim>;
-
-  Gradient displacement_gradient(const CellGeometry &cell, unsigned int point, const double *u) const;
 
   /// Fills gradients and volume strains of all points, and the pressure and modulus that act at each.
   void evaluate_volume(const CellGeometry &cell, const double *u, Order order);

@@ -6,18 +6,19 @@
 namespace signorini
 {
 /// Where the energy of a run is, and what crossed its border [J; J/m in 2-D]. It closes when
-/// kinetic + elastic + contact + dissipated, rubbed off and lost − (work of loads, supports and obstacles) −
-/// (renewals and adaptation) stays at its first value.
+/// kinetic + elastic + contact + dissipated (both), rubbed off and lost − (work of loads, supports and
+/// obstacles) − (renewals and adaptation) stays at its first value.
 struct EnergyLedger
 {
   double kinetic = 0.;
   double elastic = 0.;
-  double contact = 0.;           ///< in penetrations and in the elastic slip of friction
-  double dissipated = 0.;        ///< by contact damping, since the start
-  double rubbed_off = 0.;        ///< by friction, since the start
-  double work_of_loads = 0.;     ///< since the start
-  double work_of_supports = 0.;  ///< since the start
-  double work_of_obstacles = 0.; ///< that of what moves them, since the start
+  double contact = 0.;                 ///< in penetrations and in the elastic slip of friction
+  double dissipated = 0.;              ///< by contact damping, since the start
+  double dissipated_by_viscosity = 0.; ///< in the bodies, since the start
+  double rubbed_off = 0.;              ///< by friction, since the start
+  double work_of_loads = 0.;           ///< since the start
+  double work_of_supports = 0.;        ///< since the start
+  double work_of_obstacles = 0.;       ///< that of what moves them, since the start
   double contact_renewals =
       0.; ///< stored energy that came with renewed contact stiffnesses or points, since the start
   double contact_loss = 0.;   ///< taken by implicit steps of contact, since the start

@@ -3,6 +3,7 @@
 
 #include "signorini/contact/coupling/contact_force.h"
 #include "signorini/physics/internal_force.h"
+#include "signorini/physics/viscous_force.h"
 
 namespace signorini
 {
@@ -13,6 +14,12 @@ template <int dim>
 double compute_bulk_frequency_squared(const InternalForce<dim> &elasticity,
                                       const std::vector<MaterialParameters> &materials,
                                       const Discretization<dim> &discretization);
+
+/// The same of the damping by viscosity [1/s].
+template <int dim>
+double compute_bulk_damping_rate(const ViscousForce<dim> &viscosity, const State &state,
+                                 const std::vector<MaterialParameters> &materials,
+                                 const Discretization<dim> &discretization);
 
 /// What contact adds to the frequencies at most.
 struct ContactBound

@@ -57,11 +57,12 @@ private:
 
   /// Computes the first forces and the energies and momenta with them.
   void begin(State &state);
-  void update_bulk_bound();
+  void update_bulk_bound(const State &state);
   /// Where the law is not linear, every few steps: has any cell been strained by more than a little since?
   bool is_bulk_bound_stale();
   void compute_forces(const State &state, const Vector &velocity);
   void compute_contact_forces(const State &state, const Vector &velocity);
+  void compute_viscous_forces(const State &state, const Vector &velocity);
   void compute_load_forces(const State &state);
   void book_step(const State &state, double time_step);
   void book_supports(const State &state, double time_step);
@@ -77,8 +78,8 @@ private:
   RunTime *run_time;
 
   Vector mass;
-  Vector force, load_force, damping_force, one_damping_force, external_force;
-  Vector old_force, old_load_force, old_damping_force;
+  Vector force, load_force, damping_force, one_damping_force, viscous_force, external_force;
+  Vector old_force, old_load_force, old_damping_force, old_viscous_force;
   Vector old_displacement, old_velocity, increment;
   std::unique_ptr<ImplicitContact<dim>> implicit_contact; ///< null where contact is explicit or there is none
   Vector half_step_of_contact;                            ///< that is in the velocities [m/s]
@@ -88,7 +89,7 @@ private:
   std::vector<unsigned int> dofs_of_supported_nodes; ///< local indices, free components included
   VectorAndMoment external, old_external;
   bool has_external_forces = false;
-  double bulk_frequency_squared = 0.;
+  double bulk_frequency_squared = 0., bulk_damping_rate = 0.;
   std::vector<SpatialTensor<dim>> stretches_of_bound; ///< [own cell]; laws that are not linear only
   unsigned int n_steps = 0;
   mutable ContactBound contact_bound;

@@ -5,6 +5,7 @@
 #include "signorini/contact/coupling/friction_force.h"
 #include "signorini/contact/coupling/volume_contact_force.h"
 #include "signorini/physics/internal_force.h"
+#include "signorini/physics/viscous_force.h"
 
 #include <memory>
 #include <vector>
@@ -16,6 +17,7 @@ template <int dim>
 struct SceneForces
 {
   std::shared_ptr<InternalForce<dim>> elasticity;
+  std::vector<std::shared_ptr<ViscousForce<dim>>> viscosities; ///< one of all bodies, or none
   std::vector<std::shared_ptr<ForceTerm>> loads;
   std::vector<std::shared_ptr<ContactTerm<dim>>> contacts;               ///< all, those by volumes first
   std::vector<std::shared_ptr<VolumeContactForce<dim>>> volume_contacts; ///< those of `contacts` by volumes

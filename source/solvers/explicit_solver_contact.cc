@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// The contact forces of an ExplicitSolver, those of implicit contact among them.
+#include "signorini/solvers/explicit_solver.h"
+
+namespace signorini
+{
+template <int dim>
+void ExplicitSolver<dim>::compute_contact_forces(const State &state, const Vector &velocity)
+{
+  if (forces->contacts.empty() || implicit_contact)
+    return;
+  const auto section = run_time->enter("contact");
+  for (const auto &contact : forces->contacts)
+  {
+    contact->update(state);
+    contact->add_force(contact->is_external ? external_force : force);
+  }
+  damping_force = 0.;
+  for (const auto &contact : forces->damped_contacts)
+  {
+    one_damping_force = 0.;
+    contact->add_damping_force(velocity, one_damping_force);
+    damping_force += one_damping_force;
+    (contact->is_external ? external_force : force) += one_damping_force;
+  }
+  if (!forces->damped_contacts.empty())
+    discretization->collect(damping_force);
+  for (const auto &friction : forces->frictions)
+  {
+    friction->update(velocity);
+    friction->add_force(friction->is_external() ? external_force : force);
+  }
+  obstacle_forces.clear();
+  for (const auto &contact : forces->moving_contacts)
+  {
+    obstacle_forces.push_back(contact->obstacle_forces(velocity));
+    for (const auto &friction : forces->frictions)
+      if (friction->is_external())
+        for (const auto &[pair, on_body] : friction->pair_forces().obstacles)
+          obstacle_forces.back().conservative[pair.second] += on_body;
+  }
+}
+
+template <int dim>
+void ExplicitSolver<dim>::move_by_contact(double time_step, State &state)
+{
+  const auto section = run_time->enter("contact");
+  const auto booking = implicit_contact->move(old_displacement, time_step, old_force, state);
+  energy_ledger.contact_loss += booking.loss;
+  energy_ledger.dissipated += booking.dissipated;
+  energy_ledger.work_of_obstacles += booking.work_of_obstacles;
+  for (unsigned int d = 0; d < 3; ++d)
+  {
+    momentum_ledger.linear_impulse[d] += booking.outer_impulse.vector[d];
+    momentum_ledger.angular_impulse[d] += booking.outer_impulse.moment[d];
+  }
+}
+
+template <int dim>
+void ExplicitSolver<dim>::add_half_step_of_contact(State &state)
+{
+  for (unsigned int i = 0; i < mass.locally_owned_size(); ++i)
+    half_step_of_contact.local_element(i) =
+        mass.local_element(i) > 0.
+            ? 0.5 * last_time_step / mass.local_element(i) * implicit_contact->force().local_element(i)
+            : 0.;
+  supports->clear(half_step_of_contact);
+  state.velocity += half_step_of_contact;
+  discretization->distribute(state.velocity);
+}
+
+template <int dim>
+void ExplicitSolver<dim>::suspend(State &state)
+{
+  if (!implicit_contact)
+    return;
+  state.velocity -= half_step_of_contact;
+  half_step_of_contact = 0.;
+  discretization->distribute(state.velocity);
+}
+
+template <int dim>
+void ExplicitSolver<dim>::book_obstacles()
+{
+  for (std::size_t i = 0; i < obstacle_forces.size(); ++i)
+  {
+    const contact::ObstacleForces<dim> &now = obstacle_forces[i], &before = old_obstacle_forces[i];
+    const std::vector<SpatialVector<dim>> increments = forces->moving_contacts[i]->obstacle_increments();
+    for (std::size_t o = 0; o < increments.size(); ++o)
+    {
+      const double dissipation = 0.5 * (before.damping[o] + now.damping[o]).dot(increments[o]);
+      // The damping takes from the bodies less than their own way through its forces, or more.
+      energy_ledger.dissipated += dissipation;
+      energy_ledger.work_of_obstacles +=
+          dissipation + 0.5 * (before.conservative[o] + now.conservative[o]).dot(increments[o]);
+    }
+  }
+}
+
+template class ExplicitSolver<2>;
+template class ExplicitSolver<3>;
+} // namespace signorini
