@@ -98,7 +98,7 @@ std::vector<ErrorRow> compare_with_bar_impact(const Results<dim> &results)
   return {compare("momentum exchange (velocity)", exchanged, v_other - v_one),
           compare("mechanical energy", energy.kinetic + energy.elastic + energy.contact, energy.initial),
           compare("contact time", contact_duration(results.history), 2. * length / wave_speed),
-          compare("peak contact force (with the dashpots')", peak_force(results.history), exact_force)};
+          compare("peak contact force (dashpots included)", peak_force(results.history), exact_force)};
 }
 
 template <int dim>

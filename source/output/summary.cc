@@ -74,7 +74,7 @@ template <int dim>
 Json describe_collisions(const Results<dim> &results)
 {
   Json collisions = Json::array();
-  for (const Collision &collision : find_collisions(results.history))
+  for (const Collision &collision : results.collisions)
     collisions.push_back({{"one", name_of_collider(*results.parameters, collision.one)},
                           {"other", name_of_collider(*results.parameters, collision.other)},
                           {"begin", collision.begin},

@@ -86,7 +86,7 @@ const std::vector<ExactSolutionCase> &exact_solutions()
        {run_in_motion(), number_of_bodies(2), equal_boxes(), number_of_obstacles(0), contact(), shifts_only(),
         no_viscosity()},
        {"momentum exchange (velocity)", "mechanical energy", "contact time",
-        "peak contact force (with the dashpots')"}},
+        "peak contact force (dashpots included)"}},
       {"Ball impact",
        {radius},
        {dimension_equal_to(3), run_in_motion(), one_touching_pair(), round_or_plane, contact(),

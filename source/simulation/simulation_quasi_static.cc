@@ -114,8 +114,9 @@ void Simulation<dim>::run_quasi_static()
     ++results.n_steps;
     estimate_error();
     // Halved steps make one load step of the file: so many cycles as it asks for, unless contact needs them.
-    const bool is_load_step_done = std::floor(time / largest_step + 1e-9) > n_load_steps_done;
-    n_load_steps_done = std::floor(time / largest_step + 1e-9);
+    const double n_load_steps = std::floor(time / largest_step + 1e-9);
+    const bool is_load_step_done = n_load_steps > n_load_steps_done;
+    n_load_steps_done = n_load_steps;
     if (parameters.adaptivity && (is_load_step_done || results.estimate.is_any_contact_unseen))
       adapt_to_load();
     record_quasi_static();

@@ -233,6 +233,8 @@ void Simulation<dim>::gather_results()
     warn(fmt::format("an adaptation of the mesh changed the energy by {:.2g} of its largest: lower "
                      "Adaptivity/Interval, so that refinement comes before contact",
                      results.energy.max_adaptation / results.energy.largest));
+  if (results.has_ledger)
+    results.collisions = find_collisions(results.history);
   warn_of_collisions();
   constexpr double shallow = 0.1;
   if (results.max_penetration_over_thickness > shallow)
@@ -244,9 +246,7 @@ void Simulation<dim>::gather_results()
 template <int dim>
 void Simulation<dim>::warn_of_collisions()
 {
-  if (!results.has_ledger)
-    return;
-  for (const Collision &collision : find_collisions(results.history))
+  for (const Collision &collision : results.collisions)
     if (collision.outcome == Collision::Outcome::passed_through)
     {
       warn(fmt::format("{} passed through {} ({:.6g} to {:.6g} s): lower Contact/Maximum penetration, which "
@@ -291,9 +291,7 @@ template <int dim>
 void Simulation<dim>::print_collisions()
 {
   constexpr std::size_t most = 20;
-  if (!results.has_ledger)
-    return;
-  const std::vector<Collision> collisions = find_collisions(results.history);
+  const std::vector<Collision> &collisions = results.collisions;
   for (std::size_t i = 0; i < std::min(most, collisions.size()); ++i)
     progress.say(fmt::format("Collision of {} and {} from {:.6g} to {:.6g} s: {}",
                              name_of_collider(parameters, collisions[i].one),

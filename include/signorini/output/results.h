@@ -65,6 +65,22 @@ struct ErrorRow
   double relative_error = 0.; ///< signed, (computed − exact)/|exact| unless the quantity says otherwise
 };
 
+/// One impact of two bodies, or of a body and an obstacle, as the rows of the history show it.
+struct Collision
+{
+  enum class Outcome
+  {
+    bounced,                 ///< they have parted, their centres on the same sides as before
+    passed_through,          ///< they have parted, their centres have exchanged sides
+    touching,                ///< not parted at the end of the history
+    touching_from_the_start, ///< they have parted like `bounced`, but no row shows them before
+  };
+
+  unsigned int one = 0, other = 0; ///< see HistoryRow::bodies
+  double begin = 0., end = 0.;     ///< first and last row with a force between them [s]
+  Outcome outcome = Outcome::touching;
+};
+
 /// All that a finished run is reported from, the same on every rank.
 template <int dim>
 struct Results
@@ -108,6 +124,7 @@ struct Results
   Eigen::Matrix3d smallest_stress = Eigen::Matrix3d::Zero(); ///< componentwise over all cells [Pa]
   Eigen::Matrix3d largest_stress = Eigen::Matrix3d::Zero();
   std::vector<HistoryRow> history;
+  std::vector<Collision> collisions;        ///< of runs in motion, see find_collisions()
   std::vector<SupportForce> support_forces; ///< at the end of quasi-static runs
   double largest_support_displacement = 0.;
   std::array<double, 3> total_load{};                       ///< resultant of the loads at the end [N]

@@ -92,6 +92,8 @@ private:
   void adapt_mesh();
   void make_quasi_static_solver();
   void say_equilibrium(double end_time);
+  /// How far any node or obstacle may move in a step from the present state, both together [m].
+  double largest_motion(double time_step) const;
   /// The part of a step in which points cannot jump over what they ought to touch. Throws NumericalError
   /// where hardly anything is left of it.
   double limit_time_step(double time_step) const;

@@ -223,6 +223,7 @@ void note_depths(const SimplexPair<dim> &pair, const ConvexPolytope<dim> &part,
     }
   }
 }
+
 /// Whether a face of the overlap lies within that simplex which is not its own, rather than in a face of it.
 template <int dim>
 bool is_within(const ConvexPolytope<dim> &overlap, const typename ConvexPolytope<dim>::Face &face)

@@ -267,8 +267,8 @@ ContactMeasures<dim> VolumePotential<dim>::measure(const std::vector<double> &al
       const auto &[first, second] = search.pairs()[pair];
       const double sunk_share = std::min(1., all_sunk_shares[side == 0 ? first : second]);
       const double sunk_depth = simplex(pair, side).height * (1. - std::pow(1. - sunk_share, 1. / dim));
-      constexpr double slightly_less =
-          1. - 1e-9; // of two equal depths that of a corner counts, which has a place
+      // Of two equal depths that of a corner counts, which has a place.
+      constexpr double slightly_less = 1. - 1e-9;
       const double depth = std::max(state.depths[side], slightly_less * sunk_depth);
       measures.max_penetration = std::max(measures.max_penetration, depth);
       measures.max_pressure = std::max(measures.max_pressure, 2. * state.largest_potentials[side]);

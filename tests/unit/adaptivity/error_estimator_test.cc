@@ -41,6 +41,9 @@ struct PressedBlock
     built.forces.elasticity->update(built.state);
     for (const auto &contact : built.forces.contacts)
       contact->renew(built.state);
+    estimator =
+        std::make_unique<ErrorEstimator<dim>>(built.discretization, built.scene, built.forces, &built.map);
+    estimate = estimator->estimate(built.state);
   }
 
   /// k_A d = E ε.
@@ -66,6 +69,8 @@ struct PressedBlock
   BuiltScene<dim> built;
   VolumeMap<dim> volume_map;
   std::shared_ptr<VolumeContactForce<dim>> volumes;
+  std::unique_ptr<ErrorEstimator<dim>> estimator;
+  ErrorEstimate estimate;
 };
 
 /// Whether a face of the lower block belongs to its upper face, beyond the cells that are in contact there.
@@ -94,12 +99,11 @@ TYPED_TEST(ErrorsOnRanks, OnlyFacesThatVolumesPressOnStayUnbalanced)
   constexpr int dim = TypeParam::dim;
   for (const bool is_of_simplices : {false, true})
   {
-    PressedBlock<dim> block(is_of_simplices);
+    const PressedBlock<dim> block(is_of_simplices);
     const BuiltScene<dim> &built = block.built;
-    ErrorEstimator<dim> estimator(built.discretization, built.scene, built.forces, &built.map);
-    const ErrorEstimate estimate = estimator.estimate(built.state);
+    const ErrorEstimate &estimate = block.estimate;
     std::vector<bool> is_free(built.discretization.cells.n_cells, false);
-    for (const BoundaryFace<dim> &face : estimator.boundary_faces())
+    for (const BoundaryFace<dim> &face : block.estimator->boundary_faces())
       if (is_free_above(face))
         is_free[face.cell] = true;
     const double scale = 1000. * block.strain * block.strain * std::pow(.25, dim);
@@ -119,10 +123,9 @@ TYPED_TEST(ErrorsOnRanks, CellsHoldTheWholeErrorOfContact)
   constexpr int dim = TypeParam::dim;
   for (const bool is_of_simplices : {false, true})
   {
-    PressedBlock<dim> block(is_of_simplices);
+    const PressedBlock<dim> block(is_of_simplices);
     const BuiltScene<dim> &built = block.built;
-    ErrorEstimator<dim> estimator(built.discretization, built.scene, built.forces, &built.map);
-    const ErrorEstimate estimate = estimator.estimate(built.state);
+    const ErrorEstimate &estimate = block.estimate;
     const auto sum_of_ranks = [](double own) { return dealii::Utilities::MPI::sum(own, MPI_COMM_WORLD); };
     double of_all = 0., of_upper = 0.;
     for (unsigned int cell = 0; cell < estimate.cell_contact.size(); ++cell)
