@@ -159,7 +159,7 @@ void Simulation<dim>::record_motion(const MotionSolver<dim> &solver, double time
             .found(fmt::format("{:+.3g} of the largest energy", energy.residual()))
             .expected(fmt::format("at most {}", tolerance))
             .advise(implicit ? "lower Implicit/Time step, or refine"
-                             : "lower Explicit/Contact step factor or Contact/Penalty factor, or refine"));
+                             : "lower the step factors of 'Explicit' or Contact/Penalty factor, or refine"));
 }
 
 template <int dim>

@@ -100,6 +100,7 @@ auto ImplicitContact<dim>::move(const Vector &start, double time_step, const Vec
   {
     term->renew(state);
     term->update(state);
+    term->find_entries(start);
     term->linearize(start);
   }
   const std::vector<SpatialVector<dim>> increments = find_increments(-reach, time_step);

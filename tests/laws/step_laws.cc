@@ -175,4 +175,55 @@ TEST_P(StepLaws, EvaluationEndsTheStep)
         EXPECT_EQ(flatten<dim>(compute_forces(potential, scene.positions.size())), flatten<dim>(forces));
       });
 }
+
+/// One point of a box sank, in a step, beside the edge of another one: deeper below the face that it came
+/// through than it is from the side face.
+template <int dim>
+void check_entry()
+{
+  Case c{dim, 1, Target::body, Integration::face_quadrature};
+  PotentialScene<dim> scene(c, 2, 0.);
+  auto potential = scene.make_potential();
+  SpatialVector<dim> upwards = SpatialVector<dim>::Zero();
+  upwards[dim - 1] = scene.overlap + .01;
+  const Positions<dim> start = scene.moved(upwards);
+  // Beside the edge by half of the way that it sank.
+  SpatialVector<dim> aside = SpatialVector<dim>::Zero();
+  aside[0] = -.1371 - .75 * .5 * .1127 + .5 * scene.overlap;
+  auto at_end = scene.positions, at_start = start;
+  for (std::size_t i = 0; i < at_end.size(); ++i)
+    if (start[i] != scene.positions[i])
+    {
+      at_end[i] += aside;
+      at_start[i] += aside;
+    }
+  potential.update(at_end);
+  const auto count = [&](bool is_sideways)
+  {
+    unsigned int n = 0;
+    potential.for_each_linear_point(1e-9, [&](const LinearPoint<dim> &point)
+                                    { n += (std::abs(point.normal[0]) > .5) == is_sideways; });
+    return n;
+  };
+  potential.evaluate(at_end);
+  potential.linearize(at_start);
+  EXPECT_GT(count(true), 0u);
+  potential.evaluate(at_end);
+  potential.find_entries(at_start);
+  potential.linearize(at_start);
+  EXPECT_EQ(count(true), 0u);
+  EXPECT_GT(count(false), 0u);
+  potential.for_each_linear_point(1e-9,
+                                  [&](const LinearPoint<dim> &point)
+                                  {
+                                    EXPECT_LT(point.start_depth, -.009);
+                                    EXPECT_NEAR(point.depth - point.start_depth, scene.overlap + .01, 1e-12);
+                                  });
+}
+
+TEST(StepEntries, AreThroughTheFaceThatWasOutside)
+{
+  check_entry<2>();
+  check_entry<3>();
+}
 } // namespace

@@ -156,12 +156,6 @@ double ContactForce<dim>::add_damping_force(const Vector &velocity, Vector &forc
 }
 
 template <int dim>
-void ContactForce<dim>::linearize(const Vector &start_displacement)
-{
-  potential.linearize(map->positions(start_displacement));
-}
-
-template <int dim>
 void ContactForce<dim>::freeze(const Vector &start)
 {
   linearize(start);

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace signorini::contact
@@ -101,13 +102,23 @@ void ContactPotential<dim>::evaluate_body_pairs()
 template <int dim>
 PairFoot<dim> ContactPotential<dim>::evaluate_body_pair(const ContactPair<dim> &pair, double motion) const
 {
-  PairFoot<dim> result;
-  result.position = interpolate(surface.facets[pair.facet], pair.shape, evaluated_positions);
   // A foot cannot have gone farther away than the nodes have moved; knowing that rules out most candidates.
   const double cutoff = std::min(pairs.reach(pair.facet),
                                  (1. + 1e-6) * (pair.distance_when_made + motion) + 1e-9 * pairs.skin());
-  const SurfaceFoot<dim> foot = pairs.find_body_foot(pair, evaluated_positions, result.position, cutoff);
+  PairFoot<dim> foot = find_pair_foot(pair, evaluated_positions, cutoff);
   if (foot.depth <= -pairs.skin())
+    foot.depth = -std::numeric_limits<double>::infinity();
+  return foot;
+}
+
+template <int dim>
+PairFoot<dim> ContactPotential<dim>::find_pair_foot(const ContactPair<dim> &pair, const Positions &at,
+                                                    double cutoff) const
+{
+  PairFoot<dim> result;
+  result.position = interpolate(surface.facets[pair.facet], pair.shape, at);
+  const SurfaceFoot<dim> foot = pairs.find_body_foot(pair, at, result.position, cutoff);
+  if (!std::isfinite(foot.depth))
     return result;
   result.depth = foot.depth;
 
@@ -124,8 +135,7 @@ PairFoot<dim> ContactPotential<dim>::evaluate_body_pair(const ContactPair<dim> &
   }
   // Inside a facet, or too close for the gap to have a direction, the facet's normal is the direction: it has
   // none of the round-off that the gap takes from coordinates many orders larger than itself.
-  result.normal = evaluate_facet_frame(gather_nodes(target, evaluated_positions), foot.closest.xi)
-                      .area_normal.normalized();
+  result.normal = evaluate_facet_frame(gather_nodes(target, at), foot.closest.xi).area_normal.normalized();
   result.depth = -result.gap.dot(result.normal);
   result.gap = -result.depth * result.normal;
   return result;

@@ -50,6 +50,43 @@ void ContactPotential<dim>::shift_action(const ContactPair<dim> &pair, const Pos
 }
 
 template <int dim>
+void ContactPotential<dim>::find_entries(const Positions &start)
+{
+  // Turns and bends of the target within a step account for less.
+  constexpr double share_of_thickness = 0.01;
+  Positions motion = evaluated_positions;
+  for (std::size_t node = 0; node < motion.size(); ++node)
+    motion[node] -= start[node];
+  for_each_overlap_above(0.,
+                         [&](const NearPair &near)
+                         {
+                           if (near.target == nullptr)
+                             return;
+                           const double slack = share_of_thickness * near.contactor.layer_thickness,
+                                        start_depth = near.foot.depth +
+                                                      near.foot.normal.dot(weigh(near.stencil, motion));
+                           if (start_depth <= slack)
+                             return;
+                           const double cutoff = pairs.reach(near.pair.facet) + 2. * pairs.skin();
+                           PairFoot<dim> entry = find_pair_foot(near.pair, start, cutoff);
+                           if (entry.depth >= start_depth - slack)
+                             return;
+                           if (!std::isfinite(entry.depth))
+                           {
+                             body_feet[near.index] = entry;
+                             return;
+                           }
+                           PairStencil<dim> stencil;
+                           stencil.add(near.contactor, near.pair.shape, 1.);
+                           stencil.add(surface.facets[entry.facet], entry.shape, -1.);
+                           entry.depth -= entry.normal.dot(weigh(stencil, motion));
+                           entry.gap = -entry.depth * entry.normal;
+                           entry.position = near.foot.position;
+                           body_feet[near.index] = entry;
+                         });
+}
+
+template <int dim>
 void ContactPotential<dim>::linearize(const Positions &start)
 {
   start_depths.assign(body_feet.size() + obstacle_feet.size(), 0.);

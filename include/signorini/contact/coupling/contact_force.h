@@ -38,8 +38,9 @@ public:
   /// Adds the damping forces at the given velocities; returns the power dissipated by all ranks [W].
   double add_damping_force(const Vector &velocity, Vector &force) const;
 
-  /// See ContactPotential::linearize(); after update().
-  void linearize(const Vector &start_displacement);
+  /// See ContactPotential::find_entries() and linearize(); after update().
+  void find_entries(const Vector &start) { potential.find_entries(map->positions(start)); }
+  void linearize(const Vector &start) { potential.linearize(map->positions(start)); }
 
   /// Adds the points of this rank that overlap by more than `least` [m], on nodes that do not hang.
   void add_points(double least, contact::ContactProblem<dim> &problem) const;

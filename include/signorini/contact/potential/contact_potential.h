@@ -123,6 +123,12 @@ public:
   /// All points in contact or less than a skin away whose facet faces the other surface.
   std::vector<ContactSample<dim>> samples() const;
 
+  /// For a step that starts at the positions `start` and led to those of the last evaluation: points that
+  /// could only have been where they are if they had been inside at the start as well, although they were
+  /// not, have come in through another face. They get the foot and the normal that they had at the start,
+  /// with the depth that these give them now.
+  void find_entries(const Positions &start);
+
   /// For a step that starts at the positions `start`, ends near those of the last evaluation and gets the
   /// contact forces in between (doc/theory.md, section 7): lets every target take them at the point that the
   /// contactor's point was at `start`, so that they have no moment about these positions. Afterwards all of
@@ -192,6 +198,8 @@ private:
   void evaluate_body_pairs();
   void evaluate_obstacle_pairs();
   PairFoot<dim> evaluate_body_pair(const ContactPair<dim> &pair, double motion) const;
+  /// The foot on the body, no farther than `cutoff`, where the nodes are at those positions.
+  PairFoot<dim> find_pair_foot(const ContactPair<dim> &pair, const Positions &at, double cutoff) const;
   double depth_rate(const NearPair &near, const std::vector<SpatialVector<dim>> &velocities) const;
   double damping_pressure(const NearPair &near, double depth_rate) const;
   void add_to_measures(const NearPair &near, ContactMeasures<dim> &measures) const;
