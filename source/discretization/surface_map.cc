@@ -96,11 +96,11 @@ public:
   std::vector<double> pack_own_facets()
   {
     discretization.for_each_own_cell(
-        [this](const MeshPart<dim> &part, const auto &cell, unsigned int)
+        [this](const MeshPart<dim> &part, const auto &cell, unsigned int own_cell)
         {
           for (const unsigned int face : cell->face_indices())
             if (cell->face(face)->at_boundary())
-              pack_facet(part, cell, face);
+              pack_facet(part, cell, face, measure(own_cell));
         });
     return packed;
   }
@@ -108,7 +108,15 @@ public:
 private:
   using Cell = typename MeshPart<dim>::Cell;
 
-  void pack_facet(const MeshPart<dim> &part, const Cell &cell, unsigned int face)
+  /// Volume of a cell. deal.II's own takes squares of coordinates, which leaves no digits far from the
+  /// origin.
+  double measure(unsigned int own_cell) const
+  {
+    const double *weights = discretization.cells.cell_weights(own_cell);
+    return std::accumulate(weights, weights + discretization.cells.n_points(own_cell), 0.);
+  }
+
+  void pack_facet(const MeshPart<dim> &part, const Cell &cell, unsigned int face, double volume)
   {
     Facet<dim> facet;
     facet.degree = discretization.degree;
@@ -127,7 +135,7 @@ private:
       measure_simplex(cell, nodes[0].position, normal.normalized(), facet);
     else
     {
-      facet.layer_thickness = cell->measure() / cell->face(face)->measure();
+      facet.layer_thickness = volume / cell->face(face)->measure();
       const bool is_whole_body = cell->face(face ^ 1u)->at_boundary(); // the face across
       facet.room = (is_whole_body ? 0.5 : 1.) * facet.layer_thickness;
     }

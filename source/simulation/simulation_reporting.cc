@@ -234,7 +234,15 @@ void Simulation<dim>::gather_results()
                      "Adaptivity/Interval, so that refinement comes before contact",
                      results.energy.max_adaptation / results.energy.largest));
   if (results.has_ledger)
+  {
+    // Bodies that roll or slide around each other exchange sides too.
+    constexpr double least_depth = 0.25;
     results.collisions = find_collisions(results.history);
+    for (Collision &collision : results.collisions)
+      if (collision.outcome == Collision::Outcome::passed_through &&
+          results.max_penetration_over_thickness < least_depth)
+        collision.outcome = Collision::Outcome::bounced;
+  }
   warn_of_collisions();
   constexpr double shallow = 0.1;
   if (results.max_penetration_over_thickness > shallow)
