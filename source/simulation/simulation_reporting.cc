@@ -235,11 +235,11 @@ void Simulation<dim>::gather_results()
                      results.energy.max_adaptation / results.energy.largest));
   if (results.has_ledger)
   {
-    // Bodies that roll or slide around each other exchange sides too.
+    // Bodies that roll or slide around each other exchange sides too. (Volumes turn round at small depths.)
     constexpr double least_depth = 0.25;
     results.collisions = find_collisions(results.history);
     for (Collision &collision : results.collisions)
-      if (collision.outcome == Collision::Outcome::passed_through &&
+      if (collision.outcome == Collision::Outcome::passed_through && forces.volume_contacts.empty() &&
           results.max_penetration_over_thickness < least_depth)
         collision.outcome = Collision::Outcome::bounced;
   }
