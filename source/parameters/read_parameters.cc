@@ -152,7 +152,7 @@ void check_implicit_contact(const ParameterText &text, const Parameters &paramet
   if (!parameters.contact)
     return;
   reject(is_implicit && parameters.contact->damping, "'Contact/Damping'", text.where("Contact/Damping"));
-  reject(parameters.contact->friction.has_value(), "'Contact/Friction'", text.where("Contact/Friction"));
+  reject(is_implicit && parameters.contact->friction, "'Contact/Friction'", text.where("Contact/Friction"));
   reject(parameters.contact->potential == ContactParameters::Potential::volume, "'Potential = volume'",
          text.where("Contact", "Potential"));
 }

@@ -30,8 +30,8 @@ ExplicitSolver<dim>::ExplicitSolver(const Discretization<dim> &the_discretizatio
       dofs_of_supported_nodes.insert(dofs_of_supported_nodes.end(), node.dofs.begin(), node.dofs.end());
   if (parameters.contact_stepping == ExplicitParameters::ContactStepping::implicit_forces &&
       !forces->surface_contacts.empty())
-    implicit_contact =
-        std::make_unique<ImplicitContact<dim>>(*discretization, *supports, forces->surface_contacts, mass);
+    implicit_contact = std::make_unique<ImplicitContact<dim>>(
+        *discretization, *supports, forces->surface_contacts, forces->frictions, mass);
   half_step_of_contact = discretization->make_vector();
   has_external_forces = !forces->loads.empty();
   for (const auto &contact : forces->contacts)
@@ -50,7 +50,7 @@ void ExplicitSolver<dim>::begin(State &state)
     contact->update(state);
   }
   if (implicit_contact)
-    implicit_contact->start();
+    implicit_contact->start(state);
   compute_forces(state, state.velocity);
   for (const auto &friction : forces->frictions)
     friction->commit();
@@ -80,6 +80,7 @@ void ExplicitSolver<dim>::resume(const ExplicitSolver &before, const VectorAndMo
     momentum_ledger.linear_impulse[d] += momentum_change.vector[d];
     momentum_ledger.angular_impulse[d] += momentum_change.moment[d];
   }
+  last_time_step = before.last_time_step;
   begin(state);
   energy_ledger.book_adaptation(before.energy_ledger.stored());
 }
@@ -183,6 +184,9 @@ template <int dim>
 void ExplicitSolver<dim>::step(double time_step, State &state)
 {
   suspend(state);
+  if (implicit_contact && time_step != last_time_step)
+    energy_ledger.contact_loss +=
+        compute_energy_between_steps(time_step) - compute_energy_between_steps(last_time_step);
   old_force.swap(force);
   old_load_force.swap(load_force);
   old_damping_force.swap(damping_force);
@@ -240,8 +244,9 @@ void ExplicitSolver<dim>::book_step(const State &state, double time_step)
     energy_ledger.work_of_loads += 0.5 * (old_load_force * increment + load_force * increment);
   if (!forces->damped_contacts.empty())
     energy_ledger.dissipated -= 0.5 * (old_damping_force * increment + damping_force * increment);
-  for (const auto &friction : forces->frictions)
-    energy_ledger.rubbed_off += friction->commit();
+  if (!implicit_contact)
+    for (const auto &friction : forces->frictions)
+      energy_ledger.rubbed_off += friction->commit();
   if (!forces->viscosities.empty())
     energy_ledger.dissipated_by_viscosity -=
         0.5 * (old_viscous_force * increment + viscous_force * increment);
@@ -295,6 +300,18 @@ void ExplicitSolver<dim>::book_supports(const State &state, double time_step)
 }
 
 template <int dim>
+double ExplicitSolver<dim>::compute_energy_between_steps(double time_step) const
+{
+  Vector free_force = force;
+  supports->clear(free_force);
+  double sum = 0.;
+  for (unsigned int i = 0; i < mass.locally_owned_size(); ++i)
+    if (mass.local_element(i) > 0.)
+      sum += std::pow(time_step * free_force.local_element(i), 2) / (8. * mass.local_element(i));
+  return dealii::Utilities::MPI::sum(sum, discretization->communicator());
+}
+
+template <int dim>
 void ExplicitSolver<dim>::take_stock(const State &state)
 {
   // The velocities between the steps, without what add_half_step_of_contact() put there.
@@ -303,16 +320,9 @@ void ExplicitSolver<dim>::take_stock(const State &state)
   double twice_kinetic = 0.;
   for (unsigned int i = 0; i < mass.locally_owned_size(); ++i)
     twice_kinetic += mass.local_element(i) * velocity.local_element(i) * velocity.local_element(i);
-  if (implicit_contact)
-  {
-    Vector free_force = force;
-    supports->clear(free_force);
-    for (unsigned int i = 0; i < mass.locally_owned_size(); ++i)
-      if (mass.local_element(i) > 0.)
-        twice_kinetic -=
-            0.25 * std::pow(last_time_step * free_force.local_element(i), 2) / mass.local_element(i);
-  }
   energy_ledger.kinetic = 0.5 * dealii::Utilities::MPI::sum(twice_kinetic, discretization->communicator());
+  if (implicit_contact)
+    energy_ledger.kinetic -= compute_energy_between_steps(last_time_step);
   energy_ledger.elastic = forces->elasticity->energy();
   energy_ledger.contact = 0.;
   for (const auto &contact : forces->contacts)

@@ -48,6 +48,7 @@ void ExplicitSolver<dim>::move_by_contact(double time_step, State &state)
   const auto booking = implicit_contact->move(old_displacement, time_step, old_force, state);
   energy_ledger.contact_loss += booking.loss;
   energy_ledger.dissipated += booking.dissipated;
+  energy_ledger.rubbed_off += booking.rubbed_off;
   energy_ledger.work_of_obstacles += booking.work_of_obstacles;
   for (unsigned int d = 0; d < 3; ++d)
   {

@@ -12,9 +12,9 @@ namespace signorini
 template <int dim>
 ImplicitContact<dim>::ImplicitContact(const Discretization<dim> &the_discretization,
                                       const SupportedDofs<dim> &supports, const Terms &contact_terms,
-                                      const Vector &mass)
-    : discretization(&the_discretization), terms(&contact_terms), map(&contact_terms.front()->nodes()),
-      inverse_mass(the_discretization.make_vector())
+                                      const Frictions &their_frictions, const Vector &mass)
+    : discretization(&the_discretization), terms(&contact_terms), frictions(&their_frictions),
+      map(&contact_terms.front()->nodes()), inverse_mass(the_discretization.make_vector())
 {
   Vector masses = mass;
   for (const unsigned int dof : supports.owned_dofs())
@@ -23,24 +23,32 @@ ImplicitContact<dim>::ImplicitContact(const Discretization<dim> &the_discretizat
   for (unsigned int i = 0; i < masses.locally_owned_size(); ++i)
     if (masses.local_element(i) > 0.)
       inverse_mass.local_element(i) = 1. / masses.local_element(i);
-  for (Vector *vector : {&spring_force, &damping_force, &total_force, &outer_force})
+  for (Vector *vector : {&elastic_force, &damping_force, &total_force, &outer_force})
     *vector = discretization->make_vector();
 }
 
 template <int dim>
-void ImplicitContact<dim>::start()
+void ImplicitContact<dim>::start(const State &state)
 {
   stored = 0.;
   for (const auto &term : *terms)
     stored += term->energy();
+  for (const auto &friction : *frictions)
+  {
+    friction->update(state.velocity);
+    stored += friction->energy();
+  }
 }
 
 template <int dim>
 std::vector<SpatialVector<dim>> ImplicitContact<dim>::find_increments(double least, double time_step) const
 {
   contact::ContactProblem<dim> own(surface_masses, time_step), whole(surface_masses, time_step);
-  for (const auto &term : *terms)
-    term->add_points(least, own);
+  if (frictions->empty())
+    for (const auto &term : *terms)
+      term->add_points(least, own);
+  for (const auto &friction : *frictions)
+    friction->add_points(least, own);
   const MPI_Comm &communicator = discretization->communicator();
   const bool is_shared = dealii::Utilities::MPI::n_mpi_processes(communicator) > 1;
   // The same problem on every rank, point by point in the order of the ranks: all find the same increments.
@@ -68,7 +76,7 @@ template <int dim>
 void ImplicitContact<dim>::compute_forces()
 {
   Vector one = discretization->make_vector(), no_velocity = one;
-  for (Vector *vector : {&spring_force, &damping_force, &outer_force})
+  for (Vector *vector : {&elastic_force, &damping_force, &outer_force})
     *vector = 0.;
   stored = 0.;
   for (const auto &term : *terms)
@@ -76,7 +84,7 @@ void ImplicitContact<dim>::compute_forces()
     stored += term->energy();
     one = 0.;
     term->add_force(one);
-    spring_force += one;
+    elastic_force += one;
     if (term->is_external)
       outer_force += one;
     one = 0.;
@@ -85,9 +93,18 @@ void ImplicitContact<dim>::compute_forces()
     if (term->is_external)
       outer_force += one;
   }
-  for (Vector *vector : {&spring_force, &damping_force, &outer_force})
+  for (const auto &friction : *frictions)
+  {
+    stored += friction->energy();
+    one = 0.;
+    friction->add_force(one);
+    elastic_force += one;
+    if (friction->is_external())
+      outer_force += one;
+  }
+  for (Vector *vector : {&elastic_force, &damping_force, &outer_force})
     discretization->collect(*vector);
-  total_force = spring_force;
+  total_force = elastic_force;
   total_force += damping_force;
 }
 
@@ -103,9 +120,13 @@ auto ImplicitContact<dim>::move(const Vector &start, double time_step, const Vec
     term->find_entries(start);
     term->linearize(start);
   }
+  for (const auto &friction : *frictions)
+    friction->linearize(-reach);
   const std::vector<SpatialVector<dim>> increments = find_increments(-reach, time_step);
   for (const auto &term : *terms)
     term->follow(increments, time_step);
+  for (const auto &friction : *frictions)
+    friction->follow(increments);
   const double stored_before = stored;
   compute_forces();
 
@@ -123,21 +144,12 @@ auto ImplicitContact<dim>::move(const Vector &start, double time_step, const Vec
   Vector way = state.displacement;
   way -= start;
   booking.dissipated = -(damping_force * way);
-  booking.loss = dealii::Utilities::MPI::sum(gain, discretization->communicator()) - spring_force * way -
+  booking.loss = dealii::Utilities::MPI::sum(gain, discretization->communicator()) - elastic_force * way -
                  (stored - stored_before);
-  for (const auto &term : *terms)
-  {
-    const contact::ObstacleForces<dim> obstacle_forces = term->obstacle_forces(state.velocity);
-    const std::vector<SpatialVector<dim>> moved = term->obstacle_increments();
-    for (std::size_t o = 0; o < moved.size(); ++o)
-    {
-      const double work = obstacle_forces.conservative[o].dot(moved[o]),
-                   dissipation = obstacle_forces.damping[o].dot(moved[o]);
-      booking.work_of_obstacles += work + dissipation;
-      booking.dissipated += dissipation;
-      booking.loss += work;
-    }
-  }
+  book_obstacles(state, booking);
+  for (const auto &friction : *frictions)
+    booking.rubbed_off += friction->commit();
+  booking.loss -= booking.rubbed_off;
   booking.outer_impulse = sum_over_nodes(*discretization, start, outer_force);
   for (unsigned int d = 0; d < 3; ++d)
   {
@@ -145,6 +157,31 @@ auto ImplicitContact<dim>::move(const Vector &start, double time_step, const Vec
     booking.outer_impulse.moment[d] *= time_step;
   }
   return booking;
+}
+
+template <int dim>
+void ImplicitContact<dim>::book_obstacles(const State &state, Booking &booking) const
+{
+  const auto book = [&booking](double work)
+  {
+    booking.work_of_obstacles += work;
+    booking.loss += work;
+  };
+  for (const auto &term : *terms)
+  {
+    const contact::ObstacleForces<dim> obstacle_forces = term->obstacle_forces(state.velocity);
+    const std::vector<SpatialVector<dim>> moved = term->obstacle_increments();
+    for (std::size_t o = 0; o < moved.size(); ++o)
+    {
+      const double dissipation = obstacle_forces.damping[o].dot(moved[o]);
+      booking.work_of_obstacles += dissipation;
+      booking.dissipated += dissipation;
+      book(obstacle_forces.conservative[o].dot(moved[o]));
+    }
+  }
+  for (const auto &friction : *frictions)
+    for (const auto &[pair, on_body] : friction->pair_forces().obstacles)
+      book(on_body.dot(friction->obstacle_increments()[pair.second]));
 }
 
 template class ImplicitContact<2>;

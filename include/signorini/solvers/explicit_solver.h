@@ -66,6 +66,9 @@ private:
   void compute_load_forces(const State &state);
   void book_step(const State &state, double time_step);
   void book_supports(const State &state, double time_step);
+  /// Δt²/8 f·M⁻¹ f, by which the scheme's kinetic energy is less than that of v_n if the steps around t_n
+  /// have this length [J] (collective).
+  double compute_energy_between_steps(double time_step) const;
   void move_by_contact(double time_step, State &state);
   void add_half_step_of_contact(State &state);
   void book_obstacles();

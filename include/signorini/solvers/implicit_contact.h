@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
-#include "signorini/contact/coupling/contact_force.h"
+#include "signorini/contact/coupling/friction_force.h"
 #include "signorini/discretization/supports.h"
 #include "signorini/physics/momentum.h"
 
@@ -22,44 +22,51 @@ class ImplicitContact
 {
 public:
   using Terms = std::vector<std::shared_ptr<ContactForce<dim>>>;
+  using Frictions = std::vector<std::shared_ptr<FrictionForce<dim>>>;
 
   /// What a step did besides moving the nodes.
   struct Booking
   {
     double loss = 0.;              ///< energy that the step took out of motion and contact [J]
     double dissipated = 0.;        ///< by the damping [J]
+    double rubbed_off = 0.;        ///< by friction [J]
     double work_of_obstacles = 0.; ///< that of what moves them [J]
     VectorAndMoment outer_impulse; ///< of obstacles, about the start of the step [N s]
   };
 
-  /// `mass` is the lumped one. The arguments must outlive this object.
+  /// `frictions`: one on each of the terms, or none. `mass` is the lumped one. The arguments must outlive
+  /// this object.
   ImplicitContact(const Discretization<dim> &discretization, const SupportedDofs<dim> &supports,
-                  const Terms &terms, const Vector &mass);
+                  const Terms &terms, const Frictions &frictions, const Vector &mass);
 
-  /// Takes the energy of the contact at the last update of the terms for that of the start (collective).
-  void start();
+  /// Takes the energy of the contact at the last update of the terms, to `state`, for that of the start
+  /// (collective).
+  void start(const State &state);
 
   /// Moves `state`, where a step of this length from `start` without contact forces has led, to where it
-  /// leads with them. `other_force`: on the nodes at the start of the step, without contact. Throws
-  /// NumericalError.
+  /// leads with them, and accepts the slips. `other_force`: on the nodes at the start of the step, without
+  /// contact. Throws NumericalError.
   Booking move(const Vector &start, double time_step, const Vector &other_force, State &state);
 
-  /// Forces of the last move, damping included, on all nodes [N].
+  /// Forces of the last move, damping and friction included, on all nodes [N].
   const Vector &force() const { return total_force; }
 
-  /// Energy in the springs at the end of the last move [J].
+  /// Energy in the springs and elastic slips at the end of the last move [J].
   double energy() const { return stored; }
 
 private:
   std::vector<SpatialVector<dim>> find_increments(double least, double time_step) const;
   void compute_forces();
+  void book_obstacles(const State &state, Booking &booking) const;
 
   const Discretization<dim> *discretization;
   const Terms *terms;
+  const Frictions *frictions;
   const NodeMap<dim> *map;
   Vector inverse_mass; ///< 0 where a support holds or a node hangs
   std::vector<SpatialVector<dim>> surface_masses;
-  Vector spring_force, damping_force, total_force, outer_force;
+  Vector elastic_force; ///< of springs and elastic slips
+  Vector damping_force, total_force, outer_force;
   double stored = 0.;
 };
 } // namespace signorini

@@ -165,16 +165,18 @@ void ContactForce<dim>::freeze(const Vector &start)
 template <int dim>
 void ContactForce<dim>::add_points(double least, contact::ContactProblem<dim> &problem) const
 {
+  potential.for_each_linear_point(least, [&](const auto &point) { add_point(point, problem); });
+}
+
+template <int dim>
+void ContactForce<dim>::add_point(const contact::LinearPoint<dim> &point,
+                                  contact::ContactProblem<dim> &problem) const
+{
   typename contact::ContactProblem<dim>::Weights weights;
-  potential.for_each_linear_point(least,
-                                  [&](const contact::LinearPoint<dim> &point)
-                                  {
-                                    weights.clear();
-                                    for (unsigned int a = 0; a < point.stencil.n_nodes; ++a)
-                                      for (const auto &[node, share] : map->masters(point.stencil.node[a]))
-                                        weights.emplace_back(node, share * point.stencil.weight[a]);
-                                    problem.add(point, weights);
-                                  });
+  for (unsigned int a = 0; a < point.stencil.n_nodes; ++a)
+    for (const auto &[node, share] : map->masters(point.stencil.node[a]))
+      weights.push_back({node, share * point.stencil.weight[a], share * point.slip.levers[a]});
+  problem.add(point, weights);
 }
 
 template <int dim>

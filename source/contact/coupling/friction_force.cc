@@ -20,6 +20,13 @@ void FrictionForce<dim>::update(const Vector &velocity)
 }
 
 template <int dim>
+void FrictionForce<dim>::add_points(double least, contact::ContactProblem<dim> &problem) const
+{
+  friction.for_each_linear_point(least, [&](const contact::LinearPoint<dim> &point)
+                                 { contact->add_point(point, problem); });
+}
+
+template <int dim>
 double FrictionForce<dim>::energy() const
 {
   return dealii::Utilities::MPI::sum(friction.energy(), communicator);

@@ -125,18 +125,105 @@ SpatialVector<dim> Friction<dim>::find_slip_increment(const NearPair &near, cons
 }
 
 template <int dim>
+SpatialVector<dim> Friction<dim>::carry_over(const PointSlip<dim> &before, const TargetMotion &motion,
+                                             const SpatialVector<dim> &normal)
+{
+  if (!before.is_touching())
+    return SpatialVector<dim>::Zero();
+  return turn_to_plane<dim>(motion.turn * before.elastic, motion.turn * before.normal, normal);
+}
+
+template <int dim>
 void Friction<dim>::slip(const NearPair &near, double pressure, FrictionPoint<dim> &point) const
 {
   const CoulombLaw law{coefficient, near.pair.stiffness};
   const TargetMotion motion = find_target_motion(near);
-  SpatialVector<dim> kept = SpatialVector<dim>::Zero();
-  if (point.before.is_touching())
-    kept = turn_to_plane<dim>(motion.turn * point.before.elastic, motion.turn * point.before.normal,
-                              near.foot.normal);
+  const SpatialVector<dim> kept = carry_over(point.before, motion, near.foot.normal);
   const SpatialVector<dim> trial = kept + find_slip_increment(near, motion);
   point.now.elastic = law.find_elastic_slip(trial, pressure);
   point.now.normal = near.foot.normal;
   point.dissipated = .5 * law.stiffness * (kept + point.now.elastic).dot(trial - point.now.elastic);
+}
+
+template <int dim>
+auto Friction<dim>::find_levers(const NearPair &near) const -> typename LinearSlip<dim>::Levers
+{
+  typename LinearSlip<dim>::Levers levers = LinearSlip<dim>().levers;
+  if (near.target == nullptr)
+    return levers;
+  const LocalPoint<dim> &xi = near.foot.closest.xi;
+  const FacetNodes<dim> nodes = gather_nodes(*near.target, old_positions);
+  const auto dual = find_oblique_dual(evaluate_facet_frame(nodes, xi), near.foot.normal);
+  if (!dual)
+    return levers;
+  double arm = 0.; // from the place of the target that takes the force to the contactor's point
+  for (unsigned int a = 0; a < near.stencil.n_nodes; ++a)
+    arm += near.stencil.weight[a] * near.foot.normal.dot(old_positions[near.stencil.node[a]]);
+  const FacetShape<dim> shape = evaluate_facet_shape(nodes, xi);
+  for (unsigned int b = 0; b < shape.n_nodes; ++b)
+    for (unsigned int i = 0; i < dim - 1; ++i)
+      levers[near.contactor.n_nodes() + b] += arm * shape.first[b][i] * (*dual)[i];
+  return levers;
+}
+
+template <int dim>
+void Friction<dim>::linearize(double least)
+{
+  history.follow(potential.pair_list());
+  linear_slips.assign(history.bodies.size() + history.obstacles.size(), SpatialVector<dim>::Zero());
+  potential.for_each_overlap_above(least,
+                                   [&](const NearPair &near)
+                                   {
+                                     const TargetMotion motion = find_target_motion(near);
+                                     linear_slips[near.index] = carry_over(point_of(near, history).before,
+                                                                           motion, near.foot.normal) +
+                                                                find_slip_increment(near, motion);
+                                   });
+}
+
+template <int dim>
+void Friction<dim>::for_each_linear_point(double least,
+                                          const std::function<void(const LinearPoint<dim> &)> &visit) const
+{
+  potential.for_each_overlap_above(least,
+                                   [&](const NearPair &near)
+                                   {
+                                     LinearPoint<dim> point = potential.make_linear_point(near);
+                                     point.slip.coefficient = coefficient;
+                                     point.slip.trial = linear_slips[near.index];
+                                     point.slip.levers = find_levers(near);
+                                     visit(point);
+                                   });
+}
+
+template <int dim>
+void Friction<dim>::follow(const Positions &increments)
+{
+  for (auto *const points : {&history.bodies, &history.obstacles})
+    for (FrictionPoint<dim> &point : *points)
+    {
+      point.now = PointSlip<dim>();
+      point.dissipated = 0.;
+    }
+  potential.for_each_overlap_above(
+      0.,
+      [&](const NearPair &near)
+      {
+        const SpatialVector<dim> &normal = near.foot.normal;
+        const auto levers = find_levers(near);
+        SpatialVector<dim> moved = SpatialVector<dim>::Zero();
+        for (unsigned int a = 0; a < near.stencil.n_nodes; ++a)
+        {
+          const SpatialVector<dim> &increment = increments[near.stencil.node[a]];
+          moved += near.stencil.weight[a] * increment + normal.dot(increment) * levers[a];
+        }
+        const CoulombLaw law{coefficient, near.pair.stiffness};
+        const SpatialVector<dim> trial = linear_slips[near.index] + moved - normal.dot(moved) * normal;
+        FrictionPoint<dim> &point = point_of(near, history);
+        // The velocities do not matter: the damping is that of the step.
+        point.now = {law.find_elastic_slip(trial, potential.total_pressure(near, increments)), normal};
+        point.dissipated = law.stiffness * point.now.elastic.dot(trial - point.now.elastic);
+      });
 }
 
 template <int dim>
@@ -155,6 +242,13 @@ void Friction<dim>::add_forces(std::vector<SpatialVector<dim>> &forces) const
         const SpatialVector<dim> force = force_of(near);
         for (unsigned int a = 0; a < near.stencil.n_nodes; ++a)
           forces[near.stencil.node[a]] += near.stencil.weight[a] * force;
+        if (potential.is_linear())
+        {
+          const auto levers = find_levers(near);
+          for (unsigned int a = 0; a < near.stencil.n_nodes; ++a)
+            forces[near.stencil.node[a]] += levers[a].dot(force) * near.foot.normal;
+          return;
+        }
         if (near.target == nullptr)
           return;
         // The target gets its force at the foot, a depth away from the point: the couple makes up for that.

@@ -138,6 +138,28 @@ FacetFrame<dim> evaluate_facet_frame(const FacetNodes<dim> &nodes, const LocalPo
 }
 
 template <int dim>
+std::optional<std::array<SpatialVector<dim>, dim - 1>> find_oblique_dual(const FacetFrame<dim> &frame,
+                                                                         const SpatialVector<dim> &normal)
+{
+  constexpr double least_slope = 1e-3;
+  SpatialTensor<dim> axes;
+  double volume = 1.;
+  for (unsigned int i = 0; i < dim - 1; ++i)
+  {
+    axes.col(i) = frame.tangent[i];
+    volume *= frame.tangent[i].norm();
+  }
+  axes.col(dim - 1) = normal;
+  if (!(std::abs(axes.determinant()) > least_slope * volume))
+    return {};
+  const SpatialTensor<dim> inverse = axes.inverse();
+  std::array<SpatialVector<dim>, dim - 1> dual;
+  for (unsigned int i = 0; i < dim - 1; ++i)
+    dual[i] = inverse.row(i).transpose();
+  return dual;
+}
+
+template <int dim>
 std::vector<SpatialVector<dim>> make_lattice(const Facet<dim> &facet,
                                              const std::vector<SpatialVector<dim>> &positions, double spacing)
 {
@@ -234,4 +256,8 @@ template FacetNodes<2> gather_nodes(const Facet<2> &, const std::vector<SpatialV
 template FacetNodes<3> gather_nodes(const Facet<3> &, const std::vector<SpatialVector<3>> &);
 template FacetFrame<2> evaluate_facet_frame(const FacetNodes<2> &, const LocalPoint<2> &);
 template FacetFrame<3> evaluate_facet_frame(const FacetNodes<3> &, const LocalPoint<3> &);
+template std::optional<std::array<SpatialVector<2>, 1>> find_oblique_dual(const FacetFrame<2> &,
+                                                                          const SpatialVector<2> &);
+template std::optional<std::array<SpatialVector<3>, 2>> find_oblique_dual(const FacetFrame<3> &,
+                                                                          const SpatialVector<3> &);
 } // namespace signorini::contact

@@ -2,8 +2,6 @@
 // A ContactPotential whose depths are linear functions of the nodes' positions, for an implicit step.
 #include "signorini/contact/potential/contact_potential.h"
 
-#include <Eigen/LU>
-
 #include <algorithm>
 #include <cmath>
 
@@ -27,26 +25,17 @@ void ContactPotential<dim>::shift_action(const ContactPair<dim> &pair, const Pos
 {
   // N_b + N_b,α Δξ_α with the Δξ that takes the foot at `start` to the line along the normal through the
   // contactor's point there.
-  constexpr double least_slope = 1e-3;
   const Facet<dim> &target = surface.facets[foot.facet];
   const FacetShape<dim> shape = evaluate_facet_shape(target, foot.closest.xi);
   const FacetFrame<dim> frame = evaluate_facet_frame(gather_nodes(target, start), foot.closest.xi);
-  SpatialTensor<dim> axes;
-  double volume = 1.;
-  for (unsigned int i = 0; i < dim - 1; ++i)
-  {
-    axes.col(i) = frame.tangent[i];
-    volume *= frame.tangent[i].norm();
-  }
-  axes.col(dim - 1) = foot.normal;
-  if (!(std::abs(axes.determinant()) > least_slope * volume))
+  const auto dual = find_oblique_dual(frame, foot.normal);
+  if (!dual)
     return; // beside the facet: no line along the normal meets its plane
   const SpatialVector<dim> offset =
       interpolate(surface.facets[pair.facet], pair.shape, start) - frame.position;
-  const SpatialVector<dim> shift = axes.inverse() * offset;
   for (unsigned int b = 0; b < shape.n_nodes; ++b)
     for (unsigned int i = 0; i < dim - 1; ++i)
-      foot.shape[b] += shape.first[b][i] * shift[i];
+      foot.shape[b] += shape.first[b][i] * (*dual)[i].dot(offset);
 }
 
 template <int dim>
@@ -112,12 +101,14 @@ template <int dim>
 void ContactPotential<dim>::for_each_linear_point(
     double least, const std::function<void(const LinearPoint<dim> &)> &visit) const
 {
-  for_each_overlap_above(least,
-                         [&](const NearPair &near)
-                         {
-                           visit({near.stencil, near.foot.normal, near.foot.depth, near.pair.area,
-                                  near.pair.stiffness, near.pair.damping, start_depths[near.index]});
-                         });
+  for_each_overlap_above(least, [&](const NearPair &near) { visit(make_linear_point(near)); });
+}
+
+template <int dim>
+LinearPoint<dim> ContactPotential<dim>::make_linear_point(const NearPair &near) const
+{
+  return {near.stencil,        near.foot.normal,  near.foot.depth,          near.pair.area,
+          near.pair.stiffness, near.pair.damping, start_depths[near.index], {}};
 }
 
 template <int dim>

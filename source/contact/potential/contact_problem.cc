@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "signorini/contact/potential/contact_problem.h"
 
+#include "signorini/contact/potential/coulomb_law.h"
+
 #include <Eigen/SparseCholesky>
 
 #include <algorithm>
@@ -19,14 +21,17 @@ void ContactProblem<dim>::add(const LinearPoint<dim> &point, const Weights &weig
 {
   Point added;
   added.first_weight = all_weights.size();
-  for (const auto &[node, weight] : weights)
+  for (const Weight &weight : weights)
   {
     const auto known = std::find_if(all_weights.begin() + added.first_weight, all_weights.end(),
-                                    [node = node](const auto &entry) { return entry.first == node; });
+                                    [&](const Weight &other) { return other.node == weight.node; });
     if (known == all_weights.end())
-      all_weights.emplace_back(node, weight);
+      all_weights.push_back(weight);
     else
-      known->second += weight;
+    {
+      known->share += weight.share;
+      known->lever += weight.lever;
+    }
   }
   added.end_weight = all_weights.size();
   added.normal = point.normal;
@@ -34,6 +39,9 @@ void ContactProblem<dim>::add(const LinearPoint<dim> &point, const Weights &weig
   added.depth = point.depth;
   added.slope = point.stiffness + point.damping / time_step;
   added.offset = point.damping / time_step * std::max(point.start_depth, 0.);
+  added.stiffness = point.stiffness;
+  added.coefficient = point.slip.coefficient;
+  added.trial = point.slip.trial;
   points.push_back(added);
 }
 
@@ -41,13 +49,20 @@ template <int dim>
 std::vector<double> ContactProblem<dim>::pack() const
 {
   std::vector<double> packed;
+  const auto append = [&packed](const SpatialVector<dim> &vector)
+  { packed.insert(packed.end(), vector.begin(), vector.end()); };
   for (const Point &point : points)
   {
     packed.insert(packed.end(), {static_cast<double>(point.end_weight - point.first_weight), point.area,
-                                 point.depth, point.slope, point.offset});
-    packed.insert(packed.end(), point.normal.begin(), point.normal.end());
+                                 point.depth, point.slope, point.offset, point.stiffness, point.coefficient});
+    append(point.normal);
+    append(point.trial);
     for (std::size_t i = point.first_weight; i < point.end_weight; ++i)
-      packed.insert(packed.end(), {static_cast<double>(all_weights[i].first), all_weights[i].second});
+    {
+      packed.insert(packed.end(), {static_cast<double>(all_weights[i].node), all_weights[i].share});
+      if (point.coefficient > 0.)
+        append(all_weights[i].lever);
+    }
   }
   return packed;
 }
@@ -55,19 +70,29 @@ std::vector<double> ContactProblem<dim>::pack() const
 template <int dim>
 void ContactProblem<dim>::add_packed(const std::vector<double> &packed)
 {
-  for (auto value = packed.begin(); value != packed.end();)
+  auto value = packed.begin();
+  const auto take = [&value](SpatialVector<dim> &vector)
+  {
+    for (double &component : vector)
+      component = *value++;
+  };
+  while (value != packed.end())
   {
     Point point;
     point.first_weight = all_weights.size();
     point.end_weight = point.first_weight + static_cast<std::size_t>(*value++);
-    for (double *number : {&point.area, &point.depth, &point.slope, &point.offset})
+    for (double *number :
+         {&point.area, &point.depth, &point.slope, &point.offset, &point.stiffness, &point.coefficient})
       *number = *value++;
-    for (double &component : point.normal)
-      component = *value++;
+    take(point.normal);
+    take(point.trial);
     while (all_weights.size() < point.end_weight)
     {
       const auto node = static_cast<unsigned int>(*value++);
-      all_weights.emplace_back(node, *value++);
+      Weight weight(node, *value++);
+      if (point.coefficient > 0.)
+        take(weight.lever);
+      all_weights.push_back(weight);
     }
     points.push_back(point);
   }
@@ -77,8 +102,8 @@ template <int dim>
 void ContactProblem<dim>::number_unknowns()
 {
   nodes.clear();
-  for (const auto &[node, weight] : all_weights)
-    nodes.push_back(node);
+  for (const Weight &weight : all_weights)
+    nodes.push_back(weight.node);
   std::sort(nodes.begin(), nodes.end());
   nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
   position.assign(masses.size(), 0);
@@ -93,51 +118,80 @@ void ContactProblem<dim>::number_unknowns()
 }
 
 template <int dim>
-double ContactProblem<dim>::project(const Point &point, const Vector &values) const
+SpatialVector<dim> ContactProblem<dim>::project(const Point &point, const Vector &values) const
 {
-  double sum = 0.;
+  SpatialVector<dim> sum = SpatialVector<dim>::Zero();
   for (std::size_t i = point.first_weight; i < point.end_weight; ++i)
-    sum += all_weights[i].second *
-           point.normal.dot(values.template segment<dim>(dim * position[all_weights[i].first]));
+  {
+    const Weight &weight = all_weights[i];
+    const SpatialVector<dim> value = values.template segment<dim>(dim * position[weight.node]);
+    sum += weight.share * value + point.normal.dot(value) * weight.lever;
+  }
   return sum;
 }
 
 template <int dim>
-void ContactProblem<dim>::add_along(const Point &point, double factor, Vector &values) const
+void ContactProblem<dim>::add_force(const Point &point, const SpatialVector<dim> &force, Vector &values) const
 {
   for (std::size_t i = point.first_weight; i < point.end_weight; ++i)
-    values.template segment<dim>(dim * position[all_weights[i].first]) +=
-        factor * all_weights[i].second * point.normal;
+  {
+    const Weight &weight = all_weights[i];
+    values.template segment<dim>(dim * position[weight.node]) +=
+        weight.share * force + weight.lever.dot(force) * point.normal;
+  }
 }
 
 template <int dim>
-std::vector<double> ContactProblem<dim>::compute_pressures(const Vector &increment) const
+auto ContactProblem<dim>::compute_strains(const Vector &increment) const -> Strains
 {
-  std::vector<double> pressures;
-  pressures.reserve(points.size());
+  Strains strains;
+  strains.reserve(points.size());
   for (const Point &point : points)
-    pressures.push_back(point.slope * (point.depth - project(point, increment)) - point.offset);
-  return pressures;
+  {
+    const SpatialVector<dim> moved = project(point, increment);
+    const double along = point.normal.dot(moved);
+    strains.push_back(
+        {point.slope * (point.depth - along) - point.offset, point.trial + moved - along * point.normal});
+  }
+  return strains;
 }
 
 template <int dim>
-auto ContactProblem<dim>::compute_gradient(const Vector &increment,
-                                           const std::vector<double> &pressures) const -> Vector
+SpatialVector<dim> ContactProblem<dim>::find_elastic_slip(const Point &point, const SpatialVector<dim> &slip,
+                                                          double pressure)
+{
+  return CoulombLaw{point.coefficient, point.stiffness}.find_elastic_slip<dim>(slip, std::max(pressure, 0.));
+}
+
+template <int dim>
+SpatialTensor<dim> ContactProblem<dim>::compute_stiffness(const Point &point, const Strain &strain)
+{
+  const SpatialTensor<dim> along = point.normal * point.normal.transpose();
+  const auto elastic =
+      CoulombLaw{point.coefficient, point.stiffness}.differentiate<dim>(strain.slip, strain.pressure);
+  return point.slope * along + point.stiffness * elastic.by_trial * (SpatialTensor<dim>::Identity() - along);
+}
+
+template <int dim>
+auto ContactProblem<dim>::compute_gradient(const Vector &increment, const Strains &strains) const -> Vector
 {
   Vector gradient = inertia.cwiseProduct(increment);
   for (std::size_t q = 0; q < points.size(); ++q)
-    if (pressures[q] > 0.)
-      add_along(points[q], -points[q].area * pressures[q], gradient);
+    if (strains[q].is_pressing())
+    {
+      const Point &point = points[q];
+      const SpatialVector<dim> slip = find_elastic_slip(point, strains[q].slip, strains[q].pressure);
+      add_force(point, point.area * (point.stiffness * slip - strains[q].pressure * point.normal), gradient);
+    }
   return (inertia.array() > 0.).select(gradient, 0.);
 }
 
 template <int dim>
-double ContactProblem<dim>::compute_objective(const Vector &increment,
-                                              const std::vector<double> &pressures) const
+double ContactProblem<dim>::compute_energy(const Strains &strains) const
 {
-  double sum = 0.5 * increment.dot(inertia.cwiseProduct(increment));
+  double sum = 0.;
   for (std::size_t q = 0; q < points.size(); ++q)
-    sum += 0.5 * points[q].area * std::pow(std::max(pressures[q], 0.), 2) / points[q].slope;
+    sum += 0.5 * points[q].area * std::pow(std::max(strains[q].pressure, 0.), 2) / points[q].slope;
   return sum;
 }
 
@@ -146,33 +200,41 @@ bool ContactProblem<dim>::have_same_nodes(const Point &one, const Point &other) 
 {
   return std::equal(all_weights.begin() + one.first_weight, all_weights.begin() + one.end_weight,
                     all_weights.begin() + other.first_weight, all_weights.begin() + other.end_weight,
-                    [](const auto &a, const auto &b) { return a.first == b.first; });
+                    [](const Weight &a, const Weight &b) { return a.node == b.node; });
 }
 
 template <int dim>
-void ContactProblem<dim>::add_block(std::size_t first_point, std::size_t end_point,
-                                    const std::vector<double> &pressures,
+void ContactProblem<dim>::add_block(std::size_t first_point, std::size_t end_point, const Strains &strains,
                                     std::vector<Eigen::Triplet<double>> &entries) const
 {
   const Point &model = points[first_point];
   const std::size_t n_nodes = model.end_weight - model.first_weight;
   Eigen::MatrixXd block = Eigen::MatrixXd::Zero(dim * n_nodes, dim * n_nodes);
-  Vector direction(dim * n_nodes);
+  Vector along(dim * n_nodes);
+  Factors factors(dim * n_nodes, dim);
   bool is_active = false;
   for (std::size_t q = first_point; q < end_point; ++q)
   {
-    if (!(pressures[q] > 0.))
+    const Point &point = points[q];
+    if (!strains[q].is_pressing())
       continue;
     is_active = true;
     for (std::size_t a = 0; a < n_nodes; ++a)
-      direction.template segment<dim>(dim * a) =
-          all_weights[points[q].first_weight + a].second * points[q].normal;
-    block.template selfadjointView<Eigen::Lower>().rankUpdate(direction, points[q].area * points[q].slope);
+    {
+      const Weight &weight = all_weights[point.first_weight + a];
+      along.template segment<dim>(dim * a) = weight.share * point.normal;
+      factors.template middleRows<dim>(dim * a) =
+          weight.share * SpatialTensor<dim>::Identity() + point.normal * weight.lever.transpose();
+    }
+    if (point.coefficient > 0.)
+      block.noalias() += point.area * factors * compute_stiffness(point, strains[q]) * factors.transpose();
+    else
+      block.template selfadjointView<Eigen::Lower>().rankUpdate(along, point.area * point.slope);
   }
   if (!is_active)
     return;
   const auto unknown = [&](std::size_t i)
-  { return dim * position[all_weights[model.first_weight + i / dim].first] + i % dim; };
+  { return dim * position[all_weights[model.first_weight + i / dim].node] + i % dim; };
   for (std::size_t j = 0; j < dim * n_nodes; ++j)
     for (std::size_t i = j; i < dim * n_nodes; ++i)
     {
@@ -183,7 +245,7 @@ void ContactProblem<dim>::add_block(std::size_t first_point, std::size_t end_poi
 }
 
 template <int dim>
-Eigen::SparseMatrix<double> ContactProblem<dim>::assemble(const std::vector<double> &pressures) const
+Eigen::SparseMatrix<double> ContactProblem<dim>::assemble(const Strains &strains) const
 {
   std::vector<Eigen::Triplet<double>> entries;
   for (Eigen::Index i = 0; i < inertia.size(); ++i)
@@ -192,7 +254,7 @@ Eigen::SparseMatrix<double> ContactProblem<dim>::assemble(const std::vector<doub
   for (std::size_t q = 1; q <= points.size(); ++q)
     if (q == points.size() || !have_same_nodes(points[first], points[q]))
     {
-      add_block(first, q, pressures, entries);
+      add_block(first, q, strains, entries);
       first = q;
     }
   Eigen::SparseMatrix<double> matrix(inertia.size(), inertia.size());
@@ -202,11 +264,11 @@ Eigen::SparseMatrix<double> ContactProblem<dim>::assemble(const std::vector<doub
 
 template <int dim>
 double ContactProblem<dim>::find_length(const Vector &increment, const Vector &direction,
-                                        const std::vector<double> &pressures) const
+                                        const Strains &strains) const
 {
-  // The derivative of J along the direction grows, piecewise linearly: halve the interval it changes sign in.
+  // The derivative of J along the direction grows all the way: halve the interval it changes sign in.
   constexpr unsigned int n_halvings = 60;
-  std::vector<double> rates;
+  std::vector<SpatialVector<dim>> rates;
   for (const Point &point : points)
     rates.push_back(project(point, direction));
   const double first = direction.dot(inertia.cwiseProduct(increment)),
@@ -215,7 +277,14 @@ double ContactProblem<dim>::find_length(const Vector &increment, const Vector &d
   {
     double sum = first + length * second;
     for (std::size_t q = 0; q < points.size(); ++q)
-      sum -= points[q].area * rates[q] * std::max(pressures[q] - length * points[q].slope * rates[q], 0.);
+    {
+      const Point &point = points[q];
+      const double rate = point.normal.dot(rates[q]);
+      sum -= point.area * rate * std::max(strains[q].pressure - length * point.slope * rate, 0.);
+      const SpatialVector<dim> across = rates[q] - rate * point.normal;
+      sum += point.area * point.stiffness *
+             across.dot(find_elastic_slip(point, strains[q].slip + length * across, strains[q].pressure));
+    }
     return sum;
   };
   double low = 0., high = 1.;
@@ -227,31 +296,54 @@ double ContactProblem<dim>::find_length(const Vector &increment, const Vector &d
 }
 
 template <int dim>
+bool ContactProblem<dim>::have_settled(const Strains &before, const Strains &after) const
+{
+  constexpr double tolerance = 1e-8; // of the widest cone
+  double widest = 0., change = 0.;
+  for (std::size_t q = 0; q < points.size(); ++q)
+  {
+    const Point &point = points[q];
+    const Strain &one = before[q], &other = after[q];
+    if (!(point.coefficient > 0.) || !(one.is_pressing() || other.is_pressing()))
+      continue;
+    SpatialVector<dim> foretold = SpatialVector<dim>::Zero();
+    if (one.is_pressing())
+      foretold = point.stiffness * find_elastic_slip(point, one.slip, one.pressure) +
+                 compute_stiffness(point, one) * (other.slip - one.slip);
+    widest = std::max({widest, point.coefficient * one.pressure, point.coefficient * other.pressure});
+    change = std::max(
+        change, (point.stiffness * find_elastic_slip(point, other.slip, other.pressure) - foretold).norm());
+  }
+  return change <= tolerance * widest;
+}
+
+template <int dim>
 auto ContactProblem<dim>::solve() -> std::optional<Increments>
 {
   constexpr unsigned int max_n_iterations = 100;
   constexpr double tolerance = 1e-24; // of energies: 1e-12 of increments
   number_unknowns();
   Vector increment = Vector::Zero(inertia.size());
-  std::vector<double> pressures = compute_pressures(increment);
-  const double energy = compute_objective(increment, pressures);
+  Strains strains = compute_strains(increment);
+  const double energy = compute_energy(strains);
   Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factors;
-  const auto is_same_set = [](const std::vector<double> &one, const std::vector<double> &other)
+  const auto is_same_set = [](const Strains &one, const Strains &other)
   {
     return std::equal(one.begin(), one.end(), other.begin(),
-                      [](double a, double b) { return (a > 0.) == (b > 0.); });
+                      [](const Strain &a, const Strain &b) { return a.is_pressing() == b.is_pressing(); });
   };
   bool is_solved = !(energy > 0.);
   for (n_iterations_ = 0; !is_solved && n_iterations_ < max_n_iterations; ++n_iterations_)
   {
-    const Vector gradient = compute_gradient(increment, pressures);
-    factors.compute(assemble(pressures));
+    const Vector gradient = compute_gradient(increment, strains);
+    factors.compute(assemble(strains));
     const Vector direction = -factors.solve(gradient);
-    std::vector<double> new_pressures = compute_pressures(increment + direction);
-    is_solved = is_same_set(pressures, new_pressures) || -gradient.dot(direction) <= tolerance * energy;
-    const double length = is_solved ? 1. : find_length(increment, direction, pressures);
+    Strains new_strains = compute_strains(increment + direction);
+    is_solved = (is_same_set(strains, new_strains) || -gradient.dot(direction) <= tolerance * energy) &&
+                have_settled(strains, new_strains);
+    const double length = is_solved ? 1. : find_length(increment, direction, strains);
     increment += length * direction;
-    pressures = length == 1. ? new_pressures : compute_pressures(increment);
+    strains = length == 1. ? new_strains : compute_strains(increment);
   }
   if (!is_solved || !increment.allFinite())
     return {};

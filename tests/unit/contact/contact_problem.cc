@@ -53,14 +53,15 @@ struct RandomPoints
   void add_to(ContactProblem<dim> &problem, std::size_t first, std::size_t end) const
   {
     for (std::size_t q = first; q < end; ++q)
-      problem.add({unused, normals[q], depths[q], area(q), stiffness, damping, start_depths[q]}, weights[q]);
+      problem.add({unused, normals[q], depths[q], area(q), stiffness, damping, start_depths[q], {}},
+                  weights[q]);
   }
 
   double depth(std::size_t q, const std::vector<SpatialVector<dim>> &increments) const
   {
     double depth = depths[q];
-    for (const auto &[node, weight] : weights[q])
-      depth -= weight * normals[q].dot(increments[node]);
+    for (const auto &weight : weights[q])
+      depth -= weight.share * normals[q].dot(increments[weight.node]);
     return depth;
   }
 
@@ -87,8 +88,8 @@ void check_equilibrium(const RandomPoints<dim> &points, double tolerance)
     const double force = points.area(q) * points.pressure(q, *increments);
     n_pressing += force > 0.;
     scale = std::max(scale, force);
-    for (const auto &[node, weight] : points.weights[q])
-      forces[node] += weight * force * points.normals[q];
+    for (const auto &weight : points.weights[q])
+      forces[weight.node] += weight.share * force * points.normals[q];
   }
   EXPECT_GT(n_pressing, points.weights.size() / 8);
   EXPECT_LT(n_pressing, points.weights.size());
@@ -108,7 +109,7 @@ TEST(ContactProblem, OnePointByHand)
   ContactProblem<2> problem(masses, time_step);
   const PairStencil<2> unused{};
   const SpatialVector<2> normal(0., 1.);
-  problem.add({unused, normal, depth, area, stiffness, 0., 0.}, {{0, share}, {1, -1.}});
+  problem.add({unused, normal, depth, area, stiffness, 0., 0., {}}, {{0, share}, {1, -1.}});
   const auto increments = problem.solve();
   ASSERT_TRUE(increments);
   // m δ/Δt² = A k (d − w δ) w
@@ -219,10 +220,127 @@ TEST(ContactProblem, AddsUpTheWeightsOfANode)
                                                     ContactProblem<2>::Weights{{0, 1.}, {1, -1.}}})
   {
     ContactProblem<2> problem(masses, 0.1);
-    problem.add({unused, normal, 0.01, 1., 100., 0., 0.}, weights);
+    problem.add({unused, normal, 0.01, 1., 100., 0., 0., {}}, weights);
     found.push_back(problem.solve().value());
   }
   for (unsigned int node = 0; node < 2; ++node)
     EXPECT_LT((found[0][node] - found[1][node]).norm(), 1e-15);
+}
+
+/// Points that rub, some of which stick, some slide and some are free.
+template <int dim>
+struct RubbingPoints : RandomPoints<dim>
+{
+  double coefficient;
+  std::vector<LinearSlip<dim>> slips;
+
+  RubbingPoints(double the_coefficient, double the_stiffness, double the_damping)
+      : RandomPoints<dim>(20, 90, the_stiffness, the_damping), coefficient(the_coefficient)
+  {
+    test::RandomVectors<dim> random(4);
+    for (std::size_t q = 0; q < this->weights.size(); ++q)
+    {
+      slips.emplace_back();
+      slips.back().coefficient = coefficient;
+      slips.back().trial = across(q, random.vector(1e-4));
+      for (auto &weight : this->weights[q])
+        weight.lever = across(q, random.vector(.1));
+    }
+  }
+
+  SpatialVector<dim> across(std::size_t q, const SpatialVector<dim> &v) const
+  {
+    return v - this->normals[q].dot(v) * this->normals[q];
+  }
+
+  void add_to(ContactProblem<dim> &problem, std::size_t first, std::size_t end) const
+  {
+    for (std::size_t q = first; q < end; ++q)
+      problem.add({this->unused, this->normals[q], this->depths[q], this->area(q), this->stiffness,
+                   this->damping, this->start_depths[q], slips[q]},
+                  this->weights[q]);
+  }
+
+  SpatialVector<dim> trial(std::size_t q, const std::vector<SpatialVector<dim>> &increments) const
+  {
+    SpatialVector<dim> slip = slips[q].trial;
+    for (const auto &weight : this->weights[q])
+      slip += weight.share * across(q, increments[weight.node]) +
+              this->normals[q].dot(increments[weight.node]) * weight.lever;
+    return slip;
+  }
+};
+
+template <int dim>
+void check_friction(const RubbingPoints<dim> &points)
+{
+  ContactProblem<dim> problem(points.masses, points.time_step);
+  points.add_to(problem, 0, points.weights.size());
+  const auto increments = problem.solve();
+  ASSERT_TRUE(increments);
+  std::vector<SpatialVector<dim>> forces(points.masses.size(), SpatialVector<dim>::Zero());
+  double scale = 0.;
+  unsigned int n_sticking = 0, n_sliding = 0;
+  for (std::size_t q = 0; q < points.weights.size(); ++q)
+  {
+    const double pressure = points.pressure(q, *increments);
+    const SpatialVector<dim> trial = points.trial(q, *increments);
+    const double longest = points.coefficient * pressure / points.stiffness;
+    const bool sticks = trial.norm() <= longest;
+    n_sticking += pressure > 0. && sticks;
+    n_sliding += pressure > 0. && !sticks;
+    const SpatialVector<dim> elastic = sticks ? trial : SpatialVector<dim>(longest / trial.norm() * trial);
+    const SpatialVector<dim> force =
+        points.area(q) * (pressure * points.normals[q] - points.stiffness * elastic);
+    scale = std::max(scale, force.norm());
+    for (const auto &weight : points.weights[q])
+      forces[weight.node] += weight.share * force + weight.lever.dot(force) * points.normals[q];
+  }
+  EXPECT_GT(n_sticking, 2u);
+  EXPECT_GT(n_sliding, 5u);
+  for (std::size_t node = 0; node < forces.size(); ++node)
+    for (unsigned int d = 0; d < dim; ++d)
+      EXPECT_NEAR(points.masses[node][d] * (*increments)[node][d] / std::pow(points.time_step, 2),
+                  forces[node][d], 1e-7 * scale)
+          << problem.n_iterations();
+}
+
+TEST(ContactProblem, FindsCoulombsForces)
+{
+  for (const double coefficient : {.3, .6, .9})
+    for (const double damping : {0., 1e4})
+    {
+      check_friction(RubbingPoints<2>(coefficient, 1e6, damping));
+      check_friction(RubbingPoints<3>(coefficient, 1e6, damping));
+    }
+}
+
+TEST(ContactProblem, ASlidingPointByHand)
+{
+  // On a plane: the pressure is that without friction, the traction μ times it.
+  const double time_step = 0.1, stiffness = 50., area = 2., depth = 0.01, mass = 3., coefficient = .4;
+  const std::vector<SpatialVector<3>> masses{SpatialVector<3>::Constant(mass)};
+  ContactProblem<3> problem(masses, time_step);
+  const PairStencil<3> unused{};
+  const SpatialVector<3> normal(0., 0., 1.);
+  LinearSlip<3> slip;
+  slip.coefficient = coefficient;
+  slip.trial = SpatialVector<3>(.03, .04, 0.);
+  problem.add({unused, normal, depth, area, stiffness, 0., 0., slip}, {{0, 1.}});
+  const SpatialVector<3> increment = problem.solve().value()[0];
+  const double inertia = mass / (time_step * time_step),
+               lift = area * stiffness * depth / (inertia + area * stiffness);
+  EXPECT_NEAR(increment[2], lift, 1e-15);
+  const double drag = coefficient * lift;
+  EXPECT_LT((increment - SpatialVector<3>(-.6 * drag, -.8 * drag, lift)).norm(), 1e-10 * lift);
+}
+
+TEST(ContactProblem, FrictionIsTheSameTakenFromItsNumbers)
+{
+  const RubbingPoints<3> points(.3, 1e6, 10.);
+  ContactProblem<3> whole(points.masses, points.time_step), joined = whole;
+  points.add_to(whole, 0, 90);
+  joined.add_packed(whole.pack());
+  EXPECT_EQ(whole.solve().value(), joined.solve().value());
 }
 } // namespace

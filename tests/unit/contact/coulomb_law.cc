@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "signorini/contact/friction/coulomb_law.h"
+#include "signorini/contact/potential/coulomb_law.h"
 
 #include "facet_samples.h"
 

@@ -45,6 +45,9 @@ public:
   /// Adds the points of this rank that overlap by more than `least` [m], on nodes that do not hang.
   void add_points(double least, contact::ContactProblem<dim> &problem) const;
 
+  /// Adds one of them.
+  void add_point(const contact::LinearPoint<dim> &point, contact::ContactProblem<dim> &problem) const;
+
   /// See ContactPotential::follow().
   void follow(const std::vector<SpatialVector<dim>> &increments, double time_step)
   {

@@ -17,9 +17,18 @@ public:
 
   bool is_external() const { return contact->is_external; }
 
+  /// Those of the contact.
+  std::vector<SpatialVector<dim>> obstacle_increments() const { return contact->obstacle_increments(); }
+
   /// Slips from the last accepted step to the state that the contact was updated to, under the pressures with
   /// damping at `velocity` (collective).
   void update(const Vector &velocity);
+
+  /// See contact::Friction::linearize(), for_each_linear_point() and follow(): after those of the contact,
+  /// whose add_points() this one's add_points() replaces.
+  void linearize(double least) { friction.linearize(least); }
+  void add_points(double least, contact::ContactProblem<dim> &problem) const;
+  void follow(const std::vector<SpatialVector<dim>> &increments) { friction.follow(increments); }
 
   /// Stored in the elastic slip of all ranks together [J; J/m in 2-D] (collective).
   double energy() const;

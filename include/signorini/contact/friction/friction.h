@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
-#include "signorini/contact/friction/coulomb_law.h"
 #include "signorini/contact/friction/facet_turn.h"
 #include "signorini/contact/friction/slip_history.h"
 #include "signorini/contact/potential/contact_potential.h"
+#include "signorini/contact/potential/coulomb_law.h"
 
 namespace signorini::contact
 {
@@ -17,7 +17,9 @@ namespace signorini::contact
 /// moments cancel.
 ///
 /// Use, once for each accepted step: evaluate(), any of the const functions, commit(). A step that is tried
-/// again evaluates again. Sums run over owned facets only; add over ranks for totals.
+/// again evaluates again. In a step whose contact is found implicitly linearize() and follow() stand in the
+/// place of evaluate(), after those of the potential. Sums run over owned facets only; add over ranks for
+/// totals.
 template <int dim>
 class Friction
 {
@@ -31,6 +33,16 @@ public:
   /// Slips from the positions of the last commit() to those that the potential was evaluated at, by the
   /// pressures with damping at the velocities of the nodes. The first time nothing has moved yet.
   void evaluate(const std::vector<SpatialVector<dim>> &velocities);
+
+  /// Takes the slips since the last commit() for linear functions of the nodes' positions, around those that
+  /// the potential is linear around, of points that overlap by more than `least` [m].
+  void linearize(double least);
+
+  /// ContactPotential::for_each_linear_point() with these slips.
+  void for_each_linear_point(double least, const std::function<void(const LinearPoint<dim> &)> &visit) const;
+
+  /// The slips after the nodes have moved on by `increments` [m], by the pressures at the end of the step.
+  void follow(const Positions &increments);
 
   /// The points that touch, as of the last evaluation.
   std::vector<PlacedSlip<dim>> placed_slips() const;
@@ -46,7 +58,8 @@ public:
 
   /// Accepts the step last evaluated. Returns what it dissipated [J]: of every point A times the mean of its
   /// tractions before and after, times the way it slid. Not negative but for points that turn round while
-  /// they lose most of their pressure in the same step.
+  /// they lose most of their pressure in the same step. After follow() the traction is that of the end, and
+  /// nothing is ever negative.
   double commit();
 
   /// Resultants of the tractions by pair.
@@ -69,7 +82,12 @@ private:
 
   TargetMotion find_target_motion(const NearPair &near) const;
   SpatialVector<dim> find_slip_increment(const NearPair &near, const TargetMotion &motion) const;
+  /// The slip there was, as it would be now had nothing slipped since.
+  static SpatialVector<dim> carry_over(const PointSlip<dim> &before, const TargetMotion &motion,
+                                       const SpatialVector<dim> &normal);
   void slip(const NearPair &near, double pressure, FrictionPoint<dim> &point) const;
+  /// The levers of LinearSlip about the positions of the last commit.
+  typename LinearSlip<dim>::Levers find_levers(const NearPair &near) const;
 
   static auto partners_of(const NearPair &near)
   {
@@ -94,5 +112,6 @@ private:
   std::vector<PlacedSlip<dim>> remembered; ///< until the first evaluation
   Positions old_positions;                 ///< of the last commit; empty before the first
   Positions old_shifts;                    ///< of the obstacles, then
+  Positions linear_slips;                  ///< the trial slips of LinearSlip, body pairs first [m]
 };
 } // namespace signorini::contact

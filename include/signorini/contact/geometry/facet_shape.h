@@ -4,6 +4,7 @@
 #include "signorini/discretization/contact_surface.h"
 
 #include <array>
+#include <optional>
 #include <vector>
 
 namespace signorini::contact
@@ -83,4 +84,11 @@ struct FacetFrame
 
 template <int dim>
 FacetFrame<dim> evaluate_facet_frame(const FacetNodes<dim> &nodes, const LocalPoint<dim> &xi);
+
+/// The vectors t^α across a unit vector `normal` that are dual to the tangents, t^α·t_β = δ_αβ [1/m]: an
+/// offset from the facet has the local coordinates t^α·offset where a line along `normal` meets the facet's
+/// plane. Nothing where such lines hardly meet it.
+template <int dim>
+std::optional<std::array<SpatialVector<dim>, dim - 1>> find_oblique_dual(const FacetFrame<dim> &frame,
+                                                                         const SpatialVector<dim> &normal);
 } // namespace signorini::contact

@@ -73,6 +73,22 @@ struct PairStencil
   }
 };
 
+/// The elastic slip that a point would have if all of it were elastic, as a linear function of the nodes'
+/// positions: s = trial + Σ_a (B_a P + L_a nᵀ) Δx_a with P = I − n nᵀ. The levers L, across n, stand for how
+/// the target turns below a point that is not on its surface; a force f on the contactor, across n, is B_a f
+/// + (L_a·f) n on node a.
+template <int dim>
+struct LinearSlip
+{
+  using Levers = std::array<SpatialVector<dim>, PairStencil<dim>::max_n_nodes>;
+
+  LinearSlip() { levers.fill(SpatialVector<dim>::Zero()); }
+
+  double coefficient = 0.;                               ///< of friction, μ; none if 0
+  SpatialVector<dim> trial = SpatialVector<dim>::Zero(); ///< across the normal [m]
+  Levers levers;                                         ///< of the nodes of the stencil [1]
+};
+
 /// A point whose depth is taken for a linear function of the nodes' positions.
 template <int dim>
 struct LinearPoint
@@ -84,5 +100,6 @@ struct LinearPoint
   double stiffness = 0.;            ///< k_A [Pa/m]
   double damping = 0.;              ///< c_A [Pa s/m]
   double start_depth = 0.;          ///< at the start of the step [m]
+  LinearSlip<dim> slip = {};        ///< its stiffness is k_A, too
 };
 } // namespace signorini::contact

@@ -123,6 +123,21 @@ public:
   /// All points in contact or less than a skin away whose facet faces the other surface.
   std::vector<ContactSample<dim>> samples() const;
 
+  /// A point near its target; `target` is null for an obstacle.
+  struct NearPair
+  {
+    const ContactPair<dim> &pair;
+    const PairFoot<dim> &foot;
+    const Facet<dim> &contactor;
+    const Facet<dim> *target;
+    std::size_t index; ///< among all pairs, those of bodies first
+    PairStencil<dim> stencil;
+
+    double overlap() const { return foot.depth + pair.offset; }
+    double pressure() const { return pair.stiffness * std::max(overlap(), 0.); }
+    SpatialVector<dim> force() const { return pair.area * pressure() * foot.normal; }
+  };
+
   /// For a step that starts at the positions `start` and led to those of the last evaluation: points that
   /// could only have been where they are if they had been inside at the start as well, although they were
   /// not, have come in through another face. They get the foot and the normal that they had at the start,
@@ -138,24 +153,15 @@ public:
   /// Calls `visit` for all points of the linear depths that overlap by more than `least` [m].
   void for_each_linear_point(double least, const std::function<void(const LinearPoint<dim> &)> &visit) const;
 
+  /// The point of a pair, without a slip.
+  LinearPoint<dim> make_linear_point(const NearPair &near) const;
+
+  /// Whether depths are linear: from linearize() to the next evaluation.
+  bool is_linear() const { return !start_depths.empty(); }
+
   /// Moves the nodes on by `increments` [m], to the end of a step of that length [s]. Damping is from here on
   /// that of the step, whatever the velocities.
   void follow(const Positions &increments, double time_step);
-
-  /// A point near its target; `target` is null for an obstacle.
-  struct NearPair
-  {
-    const ContactPair<dim> &pair;
-    const PairFoot<dim> &foot;
-    const Facet<dim> &contactor;
-    const Facet<dim> *target;
-    std::size_t index; ///< among all pairs, those of bodies first
-    PairStencil<dim> stencil;
-
-    double overlap() const { return foot.depth + pair.offset; }
-    double pressure() const { return pair.stiffness * std::max(overlap(), 0.); }
-    SpatialVector<dim> force() const { return pair.area * pressure() * foot.normal; }
-  };
 
   /// Calls `visit(NearPair)` for all pairs that overlap, with their offset, by more than `least`.
   template <typename Visit>
@@ -204,7 +210,6 @@ private:
   double damping_pressure(const NearPair &near, double depth_rate) const;
   void add_to_measures(const NearPair &near, ContactMeasures<dim> &measures) const;
 
-  bool is_linear() const { return !start_depths.empty(); }
   /// The shape functions of the foot moved so that it lies below or above the point at `start`.
   void shift_action(const ContactPair<dim> &pair, const Positions &start, PairFoot<dim> &foot) const;
 
