@@ -55,9 +55,6 @@ void ExplicitSolver<dim>::begin(State &state)
   for (const auto &friction : forces->frictions)
     friction->commit();
   update_bulk_bound(state);
-  // The kinetic energy of implicit contact is one of steps.
-  if (implicit_contact && last_time_step == 0.)
-    last_time_step = stable_step();
   take_stock(state);
 }
 
@@ -74,7 +71,6 @@ void ExplicitSolver<dim>::resume(const ExplicitSolver &before, const VectorAndMo
 {
   energy_ledger = before.energy_ledger;
   momentum_ledger = before.momentum_ledger;
-  last_time_step = before.last_time_step;
   for (unsigned int d = 0; d < 3; ++d)
   {
     momentum_ledger.linear_impulse[d] += momentum_change.vector[d];
