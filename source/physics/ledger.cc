@@ -20,8 +20,8 @@ double relative_difference(const std::array<double, 3> &now, const std::array<do
 
 double EnergyLedger::imbalance() const
 {
-  return stored() + dissipated + dissipated_by_viscosity + rubbed_off + contact_loss - work_of_loads -
-         work_of_supports - work_of_obstacles - contact_renewals - adaptation - initial;
+  return stored() + dissipated + dissipated_by_viscosity + plastic_work + rubbed_off + contact_loss -
+         work_of_loads - work_of_supports - work_of_obstacles - contact_renewals - adaptation - initial;
 }
 
 void EnergyLedger::book_adaptation(double before)

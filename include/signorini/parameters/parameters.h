@@ -87,13 +87,16 @@ struct MaterialParameters
   enum class Model
   {
     linear_elastic, ///< small strain
-    neo_hookean     ///< compressible, finite strain
+    neo_hookean,    ///< compressible, finite strain
+    plastic         ///< elastic and plastic, finite strain
   };
   Model model = Model::linear_elastic;
-  double youngs_modulus = 0.; ///< E > 0 [Pa]
-  double poissons_ratio = 0.; ///< −1 < ν < 0.5
-  double density = 0.;        ///< ρ > 0 [kg/m³]
-  double viscosity = 0.;      ///< η [Pa s]; 0: none
+  double youngs_modulus = 0.;    ///< E > 0 [Pa]
+  double poissons_ratio = 0.;    ///< −1 < ν < 0.5
+  double density = 0.;           ///< ρ > 0 [kg/m³]
+  double viscosity = 0.;         ///< η [Pa s]; 0: none
+  double yield_stress = 0.;      ///< plastic: σ_y > 0 [Pa]
+  double hardening_modulus = 0.; ///< plastic: slope of the yield stress over the plastic strain, ≥ 0 [Pa]
 };
 
 /// `subsection Support NAME` of a body: prescribed displacement on the boundary NAME; a component left out is
@@ -188,7 +191,8 @@ struct ContactParameters
   Integration integration = Integration::automatic;
   unsigned int quadrature_points = 3; ///< a direction
   std::vector<std::pair<std::string, std::string>>
-      excluded_pairs; ///< names of two bodies, or a body and an obstacle
+      excluded_pairs;                    ///< names of two bodies, or a body and an obstacle
+  std::vector<std::string> self_contact; ///< bodies that may touch themselves
   bool allow_initial_overlap = false;
   double max_penetration = 0.5; ///< over the size of an element: deeper, the run stops
   std::optional<DampingParameters> damping;

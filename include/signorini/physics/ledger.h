@@ -6,8 +6,8 @@
 namespace signorini
 {
 /// Where the energy of a run is, and what crossed its border [J; J/m in 2-D]. It closes when
-/// kinetic + elastic + contact + dissipated (both), rubbed off and lost − (work of loads, supports and
-/// obstacles) − (renewals and adaptation) stays at its first value.
+/// kinetic + elastic + contact + dissipated (both), plastic work, rubbed off and lost − (work of loads,
+/// supports and obstacles) − (renewals and adaptation) stays at its first value.
 struct EnergyLedger
 {
   double kinetic = 0.;
@@ -15,6 +15,7 @@ struct EnergyLedger
   double contact = 0.;                 ///< in penetrations and in the elastic slip of friction
   double dissipated = 0.;              ///< by contact damping, since the start
   double dissipated_by_viscosity = 0.; ///< in the bodies, since the start
+  double plastic_work = 0.;            ///< done in yielding, since the start
   double rubbed_off = 0.;              ///< by friction, since the start
   double work_of_loads = 0.;           ///< since the start
   double work_of_supports = 0.;        ///< since the start
