@@ -112,8 +112,9 @@ private:
 };
 } // namespace
 
-std::vector<Collision> find_collisions(const std::vector<HistoryRow> &history)
+std::vector<Collision> find_collisions(const std::vector<HistoryRow> &history, double largest_penetration)
 {
+  constexpr double least_penetration = 0.25;
   std::vector<Collision> collisions;
   std::map<std::pair<unsigned int, unsigned int>, Touches> open;
   for (std::size_t i = 0; i < history.size(); ++i)
@@ -135,6 +136,9 @@ std::vector<Collision> find_collisions(const std::vector<HistoryRow> &history)
   }
   for (const auto &[pair, touches] : open)
     collisions.push_back(touches.judge());
+  for (Collision &collision : collisions)
+    if (collision.outcome == Collision::Outcome::passed_through && largest_penetration < least_penetration)
+      collision.outcome = Collision::Outcome::bounced;
   std::stable_sort(collisions.begin(), collisions.end(),
                    [](const Collision &a, const Collision &b) { return a.end < b.end; });
   return collisions;

@@ -3,6 +3,7 @@
 
 #include "signorini/base/exceptions.h"
 #include "signorini/output/error_rows.h"
+#include "signorini/output/friction_loop.h"
 #include "signorini/output/impact_solutions.h"
 #include "signorini/output/rough_plane.h"
 #include "signorini/parameters/exact_solution_parameters.h"
@@ -223,16 +224,18 @@ struct Case
 template <int dim>
 const std::vector<Case<dim>> &cases()
 {
-  static const std::vector<Case<dim>> table{{"Hertz sphere", Touching::at_the_end, hertz<dim>},
-                                            {"Hertz cylinder", Touching::at_the_end, hertz<dim>},
-                                            {"Squeezed bars", Touching::at_the_end, squeezed_bars<dim>},
-                                            {"Patch", Touching::at_the_end, patch<dim>},
-                                            {"Sliding contact", Touching::at_the_end, sliding_contact<dim>},
-                                            {"Bar impact", Touching::once, compare_with_bar_impact<dim>},
-                                            {"Ball impact", Touching::once, compare_with_ball_impact<dim>},
-                                            {"Bounce", Touching::once, compare_with_bounce<dim>},
-                                            {"Rough plane", Touching::once, compare_with_rough_plane<dim>},
-                                            {"Displacement", Touching::never, displacement<dim>}};
+  static const std::vector<Case<dim>> table{
+      {"Hertz sphere", Touching::at_the_end, hertz<dim>},
+      {"Hertz cylinder", Touching::at_the_end, hertz<dim>},
+      {"Squeezed bars", Touching::at_the_end, squeezed_bars<dim>},
+      {"Patch", Touching::at_the_end, patch<dim>},
+      {"Sliding contact", Touching::at_the_end, sliding_contact<dim>},
+      {"Bar impact", Touching::once, compare_with_bar_impact<dim>},
+      {"Ball impact", Touching::once, compare_with_ball_impact<dim>},
+      {"Bounce", Touching::once, compare_with_bounce<dim>},
+      {"Rough plane", Touching::once, compare_with_rough_plane<dim>},
+      {"Friction loop", Touching::at_the_end, compare_with_friction_loop<dim>},
+      {"Displacement", Touching::never, displacement<dim>}};
   return table;
 }
 

@@ -113,7 +113,7 @@ Json describe_energy(const Results<dim> &results)
 {
   const EnergyLedger &energy = results.energy;
   if (!results.has_ledger)
-    return {{"elastic", energy.elastic}, {"contact", energy.contact}};
+    return {{"elastic", energy.elastic}, {"contact", energy.contact}, {"rubbed_off", energy.rubbed_off}};
   return {{"kinetic", energy.kinetic},
           {"elastic", energy.elastic},
           {"contact", energy.contact},

@@ -67,6 +67,13 @@ void check_friction(const SectionReader &section, const ContactParameters &conta
         section.complain("Integration", "friction needs points that stay, and those of face segments do not")
             .expected("automatic or face quadrature")
             .advise("set Integration = face quadrature, or remove 'Friction'"));
+  if (!contact.penalty_factor)
+    throw InputError(section
+                         .complain("Penalty factor",
+                                   "the elastic slip of friction depends on the penalty factor, "
+                                   "which can not change on the way")
+                         .expected("a number with 'Friction'")
+                         .advise("set a number, such as 10, or remove 'Friction'"));
 }
 
 bool is_in(const std::string &name, const std::vector<std::string> &names)
@@ -222,7 +229,7 @@ void declare_contact(Declarations &declarations, const DeclarationScope &scope)
       "Penalty factor = auto: square of the estimated error by contact over that of discretization, which is "
       "about the ratio of their parts in the way of the loads; a quarter more is let pass.");
   contact.add("Integration", one_of(names_in(integrations())), "automatic", "",
-              "Automatic: face segments in quasi-static runs, face quadrature in explicit ones.");
+              "Automatic: face segments in quasi-static runs without friction, else face quadrature.");
   contact.add("Quadrature points", integer_from(1, 8), "3", "",
               "Quadrature points in each direction of a face.");
   contact.add("Excluded pairs", any_text(), "", "",
@@ -240,7 +247,7 @@ void declare_contact(Declarations &declarations, const DeclarationScope &scope)
         .add_required("Damping ratio", number_from(0.), "", "ξ: share of critical damping of the contact.");
   if (scope.includes("Contact/Friction"))
     SubsectionDeclaration(declarations, "Contact/Friction",
-                          "Coulomb friction; explicit runs only, and not with the volume potential.")
+                          "Coulomb friction; not with the volume potential.")
         .add_required("Friction coefficient", number_from(0.), "",
                       "μ: most of the tangential traction over the pressure.");
   if (scope.includes("Contact/Correction"))

@@ -49,6 +49,8 @@ const std::vector<ExactSolutionCase> &exact_solutions()
   static const ExactSolutionKey normal_force{
       "Normal force", positive_number(), "", "N",
       "Sliding contact: the constant force on the second body along the last axis."};
+  static const ExactSolutionKey period{"Period", positive_number(), "", "s",
+                                       "Friction loop: time of a loop of the load; the last one counts."};
   using Shape = ObstacleParameters::Shape;
   static const SceneNeed fixed_planes = fixed_obstacles("obstacles that are fixed planes", {Shape::plane});
   static const SceneNeed round_or_plane =
@@ -102,6 +104,11 @@ const std::vector<ExactSolutionCase> &exact_solutions()
        {run_in_motion(), number_of_bodies(1), boxes_only(), number_of_obstacles(1), fixed_planes,
         contact_friction(), shifts_only(), sliding_on_a_line()},
        {"way along the plane", "energy rubbed off"}},
+      {"Friction loop",
+       {period},
+       {quasi_static_run(), number_of_bodies(1), boxes_only(), number_of_obstacles(1), fixed_planes,
+        contact_friction(), shifts_only(), linear_elastic_bodies(), no_transverse_contraction(), a_load()},
+       {"energy rubbed off in a loop", "displacement of the loaded end"}},
       {"Displacement",
        {},
        {quasi_static_run(), linear_elastic_bodies()},

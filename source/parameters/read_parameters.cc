@@ -103,7 +103,6 @@ void check_quasi_static(const ParameterText &text, const Parameters &parameters)
                            .advise("remove the key, or run 'Explicit'"));
   }
   reject("Contact/Damping", "without velocity there is no damping");
-  reject("Contact/Friction", "friction is there in explicit runs only");
 }
 
 /// Things that only an equilibrium has.
@@ -152,7 +151,6 @@ void check_implicit_contact(const ParameterText &text, const Parameters &paramet
   if (!parameters.contact)
     return;
   reject(is_implicit && parameters.contact->damping, "'Contact/Damping'", text.where("Contact/Damping"));
-  reject(is_implicit && parameters.contact->friction, "'Contact/Friction'", text.where("Contact/Friction"));
   reject(parameters.contact->potential == ContactParameters::Potential::volume, "'Potential = volume'",
          text.where("Contact", "Potential"));
 }

@@ -279,6 +279,17 @@ SceneNeed linear_elastic_bodies()
       });
 }
 
+SceneNeed no_transverse_contraction()
+{
+  return every_body("a Poisson's ratio of 0",
+                    [](const ParameterText &text, const std::string &path, const BodyParameters &body)
+                    {
+                      return body.material.poissons_ratio != 0.
+                                 ? MaybeFault(fault_of_entry(text, path + "/Material", "Poisson's ratio", ""))
+                                 : std::nullopt;
+                    });
+}
+
 SceneNeed no_viscosity()
 {
   return every_body("no 'Viscosity'",

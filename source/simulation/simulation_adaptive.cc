@@ -51,6 +51,7 @@ void Simulation<dim>::adapt_to_load()
         });
     adapt_mesh();
     check_adapted(solve_load_step(state.time));
+    accept_slips();
     estimate_error();
   }
 }
@@ -81,6 +82,7 @@ template <int dim>
 void Simulation<dim>::adapt_mesh()
 {
   const auto section = run_time.enter("refinement");
+  auto slips = place_slips();
   const std::vector<PlacedSimplexMesh> new_meshes =
       discretization->tetrahedra
           ? make_adapted_meshes(results.estimate, *parameters.adaptivity, parameters.bodies, *discretization)
@@ -100,6 +102,7 @@ void Simulation<dim>::adapt_mesh()
   supports->impose(state.time, state.displacement);
   discretization->distribute(state.displacement);
   balance_work({&state.displacement});
+  remember_slips(std::move(slips));
   make_quasi_static_solver();
   fields->set_mesh(*discretization, map_of_pressures());
   measure_bodies();

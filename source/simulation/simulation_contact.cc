@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace signorini
 {
@@ -27,7 +28,7 @@ contact::PotentialSettings make_settings(const Parameters &parameters, double pe
   settings.penalty_factor = penalty_factor;
   settings.n_quadrature_points = contact.quadrature_points;
   const bool is_by_faces = contact.integration == Wanted::automatic
-                               ? is_in_motion
+                               ? is_in_motion || contact.friction.has_value()
                                : contact.integration == Wanted::face_quadrature;
   settings.integration =
       is_by_faces ? contact::Integration::face_quadrature : contact::Integration::face_segments;
@@ -103,10 +104,32 @@ void Simulation<dim>::build_contact()
                          forces.surface_contacts.end());
   if (settings.damping_ratio)
     forces.damped_contacts = forces.surface_contacts;
-  if (parameters.contact->friction)
-    for (const auto &contact : forces.surface_contacts)
-      forces.frictions.push_back(std::make_shared<FrictionForce<dim>>(
-          *contact, parameters.contact->friction->coefficient, communicator));
+  if (!parameters.contact->friction)
+    return;
+  const auto *explicit_parameters = std::get_if<ExplicitParameters>(&parameters.solver);
+  const bool is_explicit =
+      explicit_parameters != nullptr &&
+      explicit_parameters->contact_stepping == ExplicitParameters::ContactStepping::explicit_forces;
+  for (const auto &contact : forces.surface_contacts)
+    forces.frictions.push_back(std::make_shared<FrictionForce<dim>>(
+        *contact, parameters.contact->friction->coefficient,
+        is_explicit ? contact::SlidUnder::mean_traction : contact::SlidUnder::last_traction, communicator));
+}
+
+template <int dim>
+std::vector<std::vector<contact::PlacedSlip<dim>>> Simulation<dim>::place_slips() const
+{
+  std::vector<std::vector<contact::PlacedSlip<dim>>> slips;
+  for (const auto &friction : forces.frictions)
+    slips.push_back(friction->placed_slips());
+  return slips;
+}
+
+template <int dim>
+void Simulation<dim>::remember_slips(std::vector<std::vector<contact::PlacedSlip<dim>>> slips)
+{
+  for (std::size_t i = 0; i < slips.size(); ++i)
+    forces.frictions[i]->remember(std::move(slips[i]));
 }
 
 template <int dim>
@@ -279,16 +302,27 @@ double Simulation<dim>::limit_time_step(double time_step) const
 }
 
 template <int dim>
-std::optional<Complaint> Simulation<dim>::find_deep_penetration(const MeasuresOfTerms &measures) const
+double Simulation<dim>::penetration_limit(std::size_t term) const
 {
   // The force of the volume potential turns round at a depth of about a quarter of its simplices, which may
   // be an eighth of an element.
   constexpr double share_of_volumes = 0.25;
+  return parameters.contact->max_penetration * (term < forces.volume_contacts.size() ? share_of_volumes : 1.);
+}
+
+template <int dim>
+std::optional<Complaint> Simulation<dim>::find_deep_penetration(const MeasuresOfTerms &measures)
+{
+  constexpr double warning = 0.5;
   for (std::size_t i = 0; i < measures.size(); ++i)
   {
     const bool is_of_volumes = i < forces.volume_contacts.size();
-    const double limit = parameters.contact->max_penetration * (is_of_volumes ? share_of_volumes : 1.);
-    const double depth = measures[i].max_penetration_over_thickness;
+    const double limit = penetration_limit(i), depth = measures[i].max_penetration_over_thickness;
+    if (depth > warning * limit && depth <= limit && !std::exchange(has_warned_of_depth, true))
+      warn(fmt::format("at t = {:.6g} body '{}' has sunk into what it touches by {:.3g} of an element at {}, "
+                       "under a pressure of {:.3g} Pa: at {} of an element the run will stop",
+                       state.time, scene.body_names[measures[i].deepest_body], depth,
+                       format_point<dim>(measures[i].deepest_position), measures[i].max_pressure, limit));
     if (depth <= limit)
       continue;
     const bool is_a_leap = depth > 2.;

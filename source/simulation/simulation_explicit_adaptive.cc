@@ -50,9 +50,7 @@ void Simulation<dim>::adapt_in_explicit_run(double time_step)
     return;
   explicit_solver->take_stock(state);
   explicit_solver->suspend(state);
-  std::vector<std::vector<contact::PlacedSlip<dim>>> slips;
-  for (const auto &friction : forces.frictions)
-    slips.push_back(friction->placed_slips());
+  auto slips = place_slips();
   VectorAndMoment momentum_change;
   // Cells that contact is about to reach take all their levels at once.
   unsigned int n_rounds = 0;
@@ -67,8 +65,7 @@ void Simulation<dim>::adapt_in_explicit_run(double time_step)
     build_on_mesh();
   } while (++n_rounds < adaptivity.max_levels && mark_in_motion(duration, OtherCells::as_they_are));
   balance_work({&state.displacement, &state.velocity});
-  for (std::size_t i = 0; i < slips.size(); ++i)
-    forces.frictions[i]->remember(std::move(slips[i]));
+  remember_slips(std::move(slips));
 
   const std::unique_ptr<ExplicitSolver<dim>> before = std::move(explicit_solver);
   make_explicit_solver();

@@ -84,6 +84,13 @@ std::optional<Complaint> Simulation<dim>::find_equilibrium(double time)
 }
 
 template <int dim>
+void Simulation<dim>::accept_slips()
+{
+  for (const auto &friction : forces.frictions)
+    results.energy.rubbed_off += friction->commit();
+}
+
+template <int dim>
 void Simulation<dim>::run_quasi_static()
 {
   const auto &solver_parameters = std::get<QuasiStaticParameters>(parameters.solver);
@@ -112,6 +119,7 @@ void Simulation<dim>::run_quasi_static()
       continue;
     }
     ++results.n_steps;
+    accept_slips();
     estimate_error();
     // Halved steps make one load step of the file: so many cycles as it asks for, unless contact needs them.
     const double n_load_steps = std::floor(time / largest_step + 1e-9);
@@ -147,6 +155,8 @@ void Simulation<dim>::record_quasi_static()
   results.energy.contact = 0.;
   for (const auto &term : forces.contacts)
     results.energy.contact += term->energy();
+  for (const auto &friction : forces.frictions)
+    results.energy.contact += friction->energy();
 
   const std::string joules = dim == 2 ? " [J/m]" : " [J]";
   Statistics::Row row{{"load parameter [s]", state.time},
@@ -154,6 +164,8 @@ void Simulation<dim>::record_quasi_static()
   if (results.has_contact)
   {
     row.emplace_back("contact energy" + joules, results.energy.contact);
+    if (!forces.frictions.empty())
+      row.emplace_back("rubbed off since the start" + joules, results.energy.rubbed_off);
     append_contact(row);
   }
   append_resultants(row);

@@ -101,7 +101,7 @@ void Simulation<dim>::record_bodies(const contact::PairForces<dim> &pair_forces)
     add_to<dim>(record.velocity, motion.velocity(state.time), is_moving ? 1. : 0.);
     records.push_back(record);
   }
-  results.history.push_back({state.time, records, {}});
+  results.history.push_back({state.time, records, results.energy.rubbed_off, {}});
   auto &touching = results.history.back().touching;
   for (const auto &[pair, force] : pair_forces.bodies)
     if (force != SpatialVector<dim>::Zero())

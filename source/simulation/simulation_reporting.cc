@@ -17,6 +17,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace signorini
 {
@@ -50,11 +51,11 @@ void Simulation<dim>::print_plan()
   if (results.has_contact)
   {
     const double stiffness = measure_contact().max_stiffness;
-    progress.say(fmt::format("Contact: alpha = {}{}, {}, {} facets", results.penalty_factor,
-                             parameters.contact->penalty_factor ? "" : " to begin with",
-                             stiffness > 0. ? fmt::format("k_A = {:.4g} Pa/m at most", stiffness)
-                                            : "no surfaces are near yet",
-                             surface_map->surface().facets.size()));
+    progress.say(fmt::format(
+        "Contact: alpha = {}{}, {}, {} facets; the run stops at a penetration of {} h",
+        results.penalty_factor, parameters.contact->penalty_factor ? "" : " to begin with",
+        stiffness > 0. ? fmt::format("k_A = {:.4g} Pa/m at most", stiffness) : "no surfaces are near yet",
+        surface_map->surface().facets.size(), penetration_limit(0)));
   }
   if (const auto *quasi_static = std::get_if<QuasiStaticParameters>(&parameters.solver))
     progress.say(
@@ -233,16 +234,10 @@ void Simulation<dim>::gather_results()
     warn(fmt::format("an adaptation of the mesh changed the energy by {:.2g} of its largest: lower "
                      "Adaptivity/Interval, so that refinement comes before contact",
                      results.energy.max_adaptation / results.energy.largest));
-  if (results.has_ledger)
-  {
-    // Bodies that roll or slide around each other exchange sides too. (Volumes turn round at small depths.)
-    constexpr double least_depth = 0.25;
-    results.collisions = find_collisions(results.history);
-    for (Collision &collision : results.collisions)
-      if (collision.outcome == Collision::Outcome::passed_through && forces.volume_contacts.empty() &&
-          results.max_penetration_over_thickness < least_depth)
-        collision.outcome = Collision::Outcome::bounced;
-  }
+  if (results.has_ledger) // volumes turn round at small depths
+    results.collisions = find_collisions(results.history, forces.volume_contacts.empty()
+                                                              ? results.max_penetration_over_thickness
+                                                              : std::numeric_limits<double>::infinity());
   warn_of_collisions();
   constexpr double shallow = 0.1;
   if (results.max_penetration_over_thickness > shallow)
@@ -320,7 +315,9 @@ void Simulation<dim>::print_results()
                                    results.contact.max_penetration_over_thickness, results.contact.area)
                      : "Contact at the end: nothing touches");
     progress.say(fmt::format(form, "in the whole run", results.max_pressure,
-                             results.max_penetration_over_thickness, results.max_area));
+                             results.max_penetration_over_thickness, results.max_area) +
+                 fmt::format(" ({:.2g} % of the penetration that stops a run)",
+                             100. * results.max_penetration_over_thickness / penetration_limit(0)));
   }
   for (const ContactResultant &resultant : results.resultants)
     if (resultant.force != std::array<double, 3>{})

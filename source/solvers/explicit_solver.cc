@@ -70,12 +70,8 @@ void ExplicitSolver<dim>::resume(const ExplicitSolver &before, const VectorAndMo
                                  State &state)
 {
   energy_ledger = before.energy_ledger;
-  momentum_ledger = before.momentum_ledger;
-  for (unsigned int d = 0; d < 3; ++d)
-  {
-    momentum_ledger.linear_impulse[d] += momentum_change.vector[d];
-    momentum_ledger.angular_impulse[d] += momentum_change.moment[d];
-  }
+  this->momentum_ledger = before.momentum_ledger;
+  this->book_impulse(momentum_change);
   last_time_step = before.last_time_step;
   begin(state);
   energy_ledger.book_adaptation(before.energy_ledger.stored());
@@ -247,11 +243,10 @@ void ExplicitSolver<dim>::book_step(const State &state, double time_step)
     energy_ledger.dissipated_by_viscosity -=
         0.5 * (old_viscous_force * increment + viscous_force * increment);
   if (has_external_forces)
-    for (unsigned int d = 0; d < 3; ++d)
-    {
-      momentum_ledger.linear_impulse[d] += 0.5 * time_step * (old_external.vector[d] + external.vector[d]);
-      momentum_ledger.angular_impulse[d] += 0.5 * time_step * (old_external.moment[d] + external.moment[d]);
-    }
+  {
+    this->book_impulse(old_external, 0.5 * time_step);
+    this->book_impulse(external, 0.5 * time_step);
+  }
   if (!supports->entries().empty())
     book_supports(state, time_step);
   book_obstacles();
@@ -261,8 +256,7 @@ template <int dim>
 void ExplicitSolver<dim>::book_supports(const State &state, double time_step)
 {
   // What the momentum and kinetic energy of supported nodes changed by beyond the other forces' share came
-  // from the supports.
-  // Implicit contact pushes for the whole step, from its start.
+  // from the supports. Implicit contact pushes for the whole step, from its start.
   Vector contact_force = discretization->make_vector();
   if (implicit_contact)
     contact_force = implicit_contact->force();
@@ -286,13 +280,8 @@ void ExplicitSolver<dim>::book_supports(const State &state, double time_step)
         -m * v_old - time_step * (0.5 * old_force.local_element(i) + contact_force.local_element(i));
   }
   energy_ledger.work_of_supports += dealii::Utilities::MPI::sum(work, discretization->communicator());
-  const VectorAndMoment now = sum_over_nodes(*discretization, state.displacement, impulse);
-  const VectorAndMoment before = sum_over_nodes(*discretization, old_displacement, other_impulse);
-  for (unsigned int d = 0; d < 3; ++d)
-  {
-    momentum_ledger.linear_impulse[d] += now.vector[d] + before.vector[d];
-    momentum_ledger.angular_impulse[d] += now.moment[d] + before.moment[d];
-  }
+  this->book_impulse(sum_over_nodes(*discretization, state.displacement, impulse));
+  this->book_impulse(sum_over_nodes(*discretization, old_displacement, other_impulse));
 }
 
 template <int dim>
@@ -327,11 +316,7 @@ void ExplicitSolver<dim>::take_stock(const State &state)
     energy_ledger.contact += friction->energy();
   energy_ledger.note_scale();
 
-  const VectorAndMoment momentum = sum_over_nodes(*discretization, state.displacement, velocity, &mass);
-  momentum_ledger.linear = momentum.vector;
-  momentum_ledger.angular = momentum.moment;
-  momentum_ledger.linear_scale = std::max(momentum_ledger.linear_scale, momentum.vector_scale);
-  momentum_ledger.angular_scale = std::max(momentum_ledger.angular_scale, momentum.moment_scale);
+  this->note_momentum(sum_over_nodes(*discretization, state.displacement, velocity, &mass));
 }
 
 template class ExplicitSolver<2>;

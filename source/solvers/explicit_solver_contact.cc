@@ -50,11 +50,7 @@ void ExplicitSolver<dim>::move_by_contact(double time_step, State &state)
   energy_ledger.dissipated += booking.dissipated;
   energy_ledger.rubbed_off += booking.rubbed_off;
   energy_ledger.work_of_obstacles += booking.work_of_obstacles;
-  for (unsigned int d = 0; d < 3; ++d)
-  {
-    momentum_ledger.linear_impulse[d] += booking.outer_impulse.vector[d];
-    momentum_ledger.angular_impulse[d] += booking.outer_impulse.moment[d];
-  }
+  this->book_impulse(booking.outer_impulse);
 }
 
 template <int dim>

@@ -21,8 +21,9 @@ ForceBalance<dim>::ForceBalance(const Discretization<dim> &the_discretization,
                                 const SceneForces<dim> &scene_forces, const SurfaceMap<dim> *surface_map,
                                 RunTime &the_run_time)
     : discretization(&the_discretization), supports(&supported_dofs), forces(&scene_forces), map(surface_map),
-      run_time(&the_run_time), free_forces(the_discretization.make_vector()),
-      support_forces(the_discretization.make_vector()), norms(n_bodies)
+      run_time(&the_run_time), velocity(the_discretization.make_vector()),
+      free_forces(the_discretization.make_vector()), support_forces(the_discretization.make_vector()),
+      norms(n_bodies)
 {
   all_terms.push_back(forces->elasticity);
   all_terms.insert(all_terms.end(), forces->loads.begin(), forces->loads.end());
@@ -48,23 +49,34 @@ void ForceBalance<dim>::compute(const State &state)
 {
   free_forces = 0.;
   norms.assign(norms.size(), {});
-  Vector force = discretization->make_vector();
   for (const auto &term : all_terms)
   {
     const auto section = run_time->enter(term->name);
-    force = 0.;
     term->update(state);
-    term->add_force(force);
-    discretization->collect(force);
-    free_forces += force;
-    const std::vector<double> of_term = compute_body_norms(force);
-    for (unsigned int body = 0; body < norms.size(); ++body)
-      norm_of(term->kind, body) = std::hypot(norm_of(term->kind, body), of_term[body]);
+    add(term->kind, [&term](Vector &force) { term->add_force(force); });
+  }
+  for (const auto &friction : forces->frictions)
+  {
+    const auto section = run_time->enter("friction");
+    friction->update(velocity);
+    add(ForceTerm::Kind::contact, [&friction](Vector &force) { friction->add_force(force); });
   }
   support_forces = 0.;
   for (const unsigned int dof : supports->owned_dofs())
     support_forces.local_element(dof) = -free_forces.local_element(dof);
   supports->clear(free_forces);
+}
+
+template <int dim>
+void ForceBalance<dim>::add(ForceTerm::Kind kind, const std::function<void(Vector &)> &add_force)
+{
+  Vector force = discretization->make_vector();
+  add_force(force);
+  discretization->collect(force);
+  free_forces += force;
+  const std::vector<double> of_term = compute_body_norms(force);
+  for (unsigned int body = 0; body < norms.size(); ++body)
+    norm_of(kind, body) = std::hypot(norm_of(kind, body), of_term[body]);
 }
 
 template <int dim>
@@ -168,6 +180,8 @@ double ForceBalance<dim>::energy() const
   double sum = 0.;
   for (const auto &term : all_terms)
     sum += term->energy();
+  for (const auto &friction : forces->frictions)
+    sum += friction->held_energy();
   return sum;
 }
 

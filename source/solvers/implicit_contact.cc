@@ -112,21 +112,23 @@ template <int dim>
 auto ImplicitContact<dim>::move(const Vector &start, double time_step, const Vector &other_force,
                                 State &state) -> Booking
 {
-  const double reach = 2. * time_step * state.velocity.linfty_norm();
+  double reach = 2. * time_step * state.velocity.linfty_norm();
   for (const auto &term : *terms)
   {
     term->renew(state);
     term->update(state);
     term->find_entries(start);
     term->linearize(start);
+    for (const SpatialVector<dim> &moved : term->obstacle_increments())
+      reach += 2. * moved.norm();
   }
   for (const auto &friction : *frictions)
-    friction->linearize(-reach);
+    friction->linearize(-reach, start);
   const std::vector<SpatialVector<dim>> increments = find_increments(-reach, time_step);
   for (const auto &term : *terms)
     term->follow(increments, time_step);
   for (const auto &friction : *frictions)
-    friction->follow(increments);
+    friction->follow();
   const double stored_before = stored;
   compute_forces();
 

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace signorini
 {
@@ -20,7 +21,7 @@ ImplicitSolver<dim>::ImplicitSolver(const Discretization<dim> &the_discretizatio
                                     const SceneForces<dim> &scene_forces, const SurfaceMap<dim> *map,
                                     const ImplicitParameters &parameters, RunTime &the_run_time)
     : discretization(&the_discretization), supports(&supported_dofs), forces(&scene_forces),
-      run_time(&the_run_time), mass(make_lumped_mass(scene.materials, the_discretization)),
+      mass(make_lumped_mass(scene.materials, the_discretization)),
       inertia(std::make_shared<StepInertia<dim>>(mass)),
       impulse(std::make_shared<ConstantForce<dim>>("loads and momentum")),
       step_forces(replace_loads(scene_forces, {inertia, impulse})),
@@ -62,6 +63,11 @@ void ImplicitSolver<dim>::start(State &state)
     contact->renew(state);
     contact->update(state);
     contact_energy += contact->energy();
+  }
+  for (const auto &friction : forces->frictions)
+  {
+    friction->update(state.velocity);
+    friction->commit();
   }
   forces->elasticity->update(state);
   take_stock(state);
@@ -146,6 +152,8 @@ bool ImplicitSolver<dim>::settle_contact(State &state, const Report &report)
       contact->update(state);
       contact->freeze(middle);
     }
+    for (const auto &friction : forces->frictions)
+      friction->linearize(std::numeric_limits<double>::lowest(), middle);
     if (!newton.solve(state.time, state, report))
       return false;
   }
@@ -170,6 +178,16 @@ void ImplicitSolver<dim>::compute_forces(const State &state)
     contact_energy += contact->energy();
     contact_force += force;
     if (contact->is_external)
+      outer_contact_force += force;
+  }
+  for (const auto &friction : forces->frictions)
+  {
+    Vector force = discretization->make_vector();
+    friction->update(state.velocity);
+    friction->add_force(force);
+    contact_energy += friction->energy();
+    contact_force += force;
+    if (friction->is_external())
       outer_contact_force += force;
   }
   discretization->collect(contact_force);
@@ -219,29 +237,40 @@ void ImplicitSolver<dim>::accept(const State &state)
   middle.add(0.5, way);
   Vector outer_force = load_force;
   outer_force += outer_contact_force;
-  const VectorAndMoment outer = sum_over_nodes(*discretization, middle, outer_force);
-  MomentumLedger &momentum = this->momentum_ledger;
-  for (unsigned int d = 0; d < 3; ++d)
-  {
-    momentum.linear_impulse[d] += time_step * outer.vector[d];
-    momentum.angular_impulse[d] += time_step * outer.moment[d];
-  }
+  this->book_impulse(sum_over_nodes(*discretization, middle, outer_force), time_step);
   EnergyLedger &energy = this->energy_ledger;
   energy.work_of_loads += load_force * way;
   energy.contact_loss -= contact_force * way + contact_energy - contact_energy_before;
+  if (!forces->moving_contacts.empty())
+    book_obstacles(state);
+  for (const auto &friction : forces->frictions)
+  {
+    const double rubbed_off = friction->commit();
+    energy.rubbed_off += rubbed_off;
+    energy.contact_loss -= rubbed_off;
+  }
+  if (!supports->entries().empty())
+    book_supports(state);
+}
+
+template <int dim>
+void ImplicitSolver<dim>::book_obstacles(const State &state)
+{
+  const auto book = [this](double work)
+  {
+    this->energy_ledger.work_of_obstacles += work;
+    this->energy_ledger.contact_loss += work;
+  };
   for (const auto &contact : forces->moving_contacts)
   {
     const contact::ObstacleForces<dim> obstacle_forces = contact->obstacle_forces(state.velocity);
     const std::vector<SpatialVector<dim>> increments = contact->obstacle_increments();
     for (std::size_t o = 0; o < increments.size(); ++o)
-    {
-      const double work = obstacle_forces.conservative[o].dot(increments[o]);
-      energy.work_of_obstacles += work;
-      energy.contact_loss += work;
-    }
+      book(obstacle_forces.conservative[o].dot(increments[o]));
   }
-  if (!supports->entries().empty())
-    book_supports(state);
+  for (const auto &friction : forces->frictions)
+    for (const auto &[pair, on_body] : friction->pair_forces().obstacles)
+      book(on_body.dot(friction->obstacle_increments()[pair.second]));
 }
 
 template <int dim>
@@ -264,7 +293,7 @@ void ImplicitSolver<dim>::book_supports(const State &state)
   Vector middle = before.displacement;
   middle += state.displacement;
   middle *= 0.5;
-  const VectorAndMoment sum = sum_over_nodes(*discretization, middle, impulses);
+  VectorAndMoment sum = sum_over_nodes(*discretization, middle, impulses);
   // Supported nodes need not move by the mean of their velocities, which turns their momentum by itself.
   const VectorAndMoment momentum_now =
                             sum_over_nodes(*discretization, state.displacement, state.velocity, &mass),
@@ -274,11 +303,8 @@ void ImplicitSolver<dim>::book_supports(const State &state)
   velocity_change -= before.velocity;
   const VectorAndMoment of_change = sum_over_nodes(*discretization, middle, velocity_change, &mass);
   for (unsigned int d = 0; d < 3; ++d)
-  {
-    this->momentum_ledger.linear_impulse[d] += sum.vector[d];
-    this->momentum_ledger.angular_impulse[d] +=
-        sum.moment[d] + momentum_now.moment[d] - momentum_before.moment[d] - of_change.moment[d];
-  }
+    sum.moment[d] += momentum_now.moment[d] - momentum_before.moment[d] - of_change.moment[d];
+  this->book_impulse(sum);
 }
 
 template <int dim>
@@ -290,12 +316,7 @@ void ImplicitSolver<dim>::take_stock(const State &state)
   energy.elastic = forces->elasticity->energy();
   energy.contact = contact_energy;
   energy.note_scale();
-  const VectorAndMoment sum = sum_over_nodes(*discretization, state.displacement, state.velocity, &mass);
-  MomentumLedger &momentum = this->momentum_ledger;
-  momentum.linear = sum.vector;
-  momentum.angular = sum.moment;
-  momentum.linear_scale = std::max(momentum.linear_scale, sum.vector_scale);
-  momentum.angular_scale = std::max(momentum.angular_scale, sum.moment_scale);
+  this->note_momentum(sum_over_nodes(*discretization, state.displacement, state.velocity, &mass));
 }
 
 template class ImplicitSolver<2>;

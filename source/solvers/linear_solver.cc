@@ -31,7 +31,7 @@ using OwnedVector = Owned<Vec, VecDestroy>;
 using OwnedSolver = Owned<KSP, KSPDestroy>;
 
 /// The same matrix in PETSc's storage, on the same rows.
-void copy(const dealii::TrilinosWrappers::SparseMatrix &matrix, Mat *copied)
+void copy(const dealii::TrilinosWrappers::SparseMatrix &matrix, Symmetry symmetry, Mat *copied)
 {
   const Epetra_CrsMatrix &epetra = matrix.trilinos_matrix();
   std::vector<PetscInt> row_starts{0}, columns;
@@ -49,18 +49,19 @@ void copy(const dealii::TrilinosWrappers::SparseMatrix &matrix, Mat *copied)
   const auto n = static_cast<PetscInt>(matrix.m());
   MatCreateMPIAIJWithArrays(matrix.get_mpi_communicator(), epetra.NumMyRows(), epetra.NumMyRows(), n, n,
                             row_starts.data(), columns.data(), values.data(), copied);
-  MatSetOption(*copied, MAT_SPD, PETSC_TRUE);
+  if (symmetry == Symmetry::symmetric)
+    MatSetOption(*copied, MAT_SPD, PETSC_TRUE);
 }
 
 /// Solves with a PETSc solver that `configure(solver)` has set up. Returns whether it succeeded.
 template <typename Configure>
-bool solve_in_petsc(const dealii::TrilinosWrappers::SparseMatrix &matrix,
+bool solve_in_petsc(const dealii::TrilinosWrappers::SparseMatrix &matrix, Symmetry symmetry,
                     const dealii::TrilinosWrappers::MPI::Vector &right_hand_side,
                     dealii::TrilinosWrappers::MPI::Vector &solution, PetscInt &n_iterations,
                     const Configure &configure)
 {
   OwnedMatrix system;
-  copy(matrix, &system);
+  copy(matrix, symmetry, &system);
   OwnedVector x, b;
   MatCreateVecs(system, &x, &b);
   PetscScalar *entries = nullptr;
@@ -85,31 +86,36 @@ bool solve_in_petsc(const dealii::TrilinosWrappers::SparseMatrix &matrix,
 class DirectSolver : public LinearSolver
 {
 public:
+  explicit DirectSolver(Symmetry symmetry_of_matrix) : symmetry(symmetry_of_matrix) {}
+
   unsigned int solve(const dealii::TrilinosWrappers::SparseMatrix &matrix,
                      const dealii::TrilinosWrappers::MPI::Vector &right_hand_side,
                      dealii::TrilinosWrappers::MPI::Vector &solution) override
   {
     PetscInt n_iterations = 0;
-    if (!solve_in_petsc(matrix, right_hand_side, solution, n_iterations,
-                        [](KSP solver)
+    if (!solve_in_petsc(matrix, symmetry, right_hand_side, solution, n_iterations,
+                        [this](KSP solver)
                         {
                           PC factorisation = nullptr;
                           KSPSetType(solver, KSPPREONLY);
                           KSPGetPC(solver, &factorisation);
-                          PCSetType(factorisation, PCCHOLESKY);
+                          PCSetType(factorisation, symmetry == Symmetry::symmetric ? PCCHOLESKY : PCLU);
                           PCFactorSetMatSolverType(factorisation, MATSOLVERMUMPS);
                         }))
       throw NumericalError("the direct solver could not factorise the tangent: it is singular");
     return 1;
   }
   std::string name() const override { return "direct (MUMPS)"; }
+
+private:
+  Symmetry symmetry;
 };
 
 class AmgSolver : public LinearSolver
 {
 public:
-  AmgSolver(unsigned int n_displacement_components, double tolerance)
-      : n_components(n_displacement_components), relative_tolerance(tolerance)
+  AmgSolver(unsigned int n_displacement_components, double tolerance, Symmetry symmetry_of_matrix)
+      : n_components(n_displacement_components), relative_tolerance(tolerance), symmetry(symmetry_of_matrix)
   {
   }
 
@@ -118,11 +124,11 @@ public:
                      dealii::TrilinosWrappers::MPI::Vector &solution) override
   {
     PetscInt n_iterations = 0;
-    if (!solve_in_petsc(matrix, right_hand_side, solution, n_iterations,
+    if (!solve_in_petsc(matrix, symmetry, right_hand_side, solution, n_iterations,
                         [this](KSP solver)
                         {
                           PC multigrid = nullptr;
-                          KSPSetType(solver, KSPCG);
+                          KSPSetType(solver, symmetry == Symmetry::symmetric ? KSPCG : KSPFGMRES);
                           KSPSetNormType(solver, KSP_NORM_UNPRECONDITIONED);
                           KSPSetTolerances(solver, relative_tolerance, 0., PETSC_DEFAULT, 2000);
                           KSPGetPC(solver, &multigrid);
@@ -131,11 +137,14 @@ public:
                           set_multigrid_options();
                           PCSetFromOptions(multigrid);
                         }))
-      throw NumericalError("conjugate gradients did not reach their tolerance in " +
-                           std::to_string(n_iterations) + " iterations");
+      throw NumericalError(name() + " did not reach the tolerance in " + std::to_string(n_iterations) +
+                           " iterations");
     return static_cast<unsigned int>(n_iterations);
   }
-  std::string name() const override { return "conjugate gradients with BoomerAMG"; }
+  std::string name() const override
+  {
+    return symmetry == Symmetry::symmetric ? "conjugate gradients with BoomerAMG" : "GMRES with BoomerAMG";
+  }
 
 private:
   /// Sparse coarse levels: hypre's own defaults fill them up in 3-D, at six to nine times the cost of a
@@ -155,16 +164,18 @@ private:
 
   unsigned int n_components;
   double relative_tolerance;
+  Symmetry symmetry;
 };
 } // namespace
 
-std::unique_ptr<LinearSolver> make_direct_solver()
+std::unique_ptr<LinearSolver> make_direct_solver(Symmetry symmetry)
 {
-  return std::make_unique<DirectSolver>();
+  return std::make_unique<DirectSolver>(symmetry);
 }
 
-std::unique_ptr<LinearSolver> make_amg_solver(unsigned int n_components, double relative_tolerance)
+std::unique_ptr<LinearSolver> make_amg_solver(unsigned int n_components, double relative_tolerance,
+                                              Symmetry symmetry)
 {
-  return std::make_unique<AmgSolver>(n_components, relative_tolerance);
+  return std::make_unique<AmgSolver>(n_components, relative_tolerance, symmetry);
 }
 } // namespace signorini

@@ -38,7 +38,8 @@ QuasiStaticSolver<dim>::QuasiStaticSolver(const Discretization<dim> &the_discret
   const bool is_direct = parameters.linear_solver == QuasiStaticParameters::LinearSolver::automatic
                              ? n_dofs <= (dim == 2 ? max_n_dofs_direct_2d : max_n_dofs_direct_3d)
                              : parameters.linear_solver == QuasiStaticParameters::LinearSolver::direct;
-  linear_solver = is_direct ? make_direct_solver() : make_amg_solver(dim, 1e-8);
+  const Symmetry symmetry = forces->frictions.empty() ? Symmetry::symmetric : Symmetry::unsymmetric;
+  linear_solver = is_direct ? make_direct_solver(symmetry) : make_amg_solver(dim, 1e-8, symmetry);
 
   std::vector<double> volume(scene->n_bodies(), 0.);
   const Vector nodal_volume = make_nodal_volume(*discretization);
@@ -136,6 +137,8 @@ void QuasiStaticSolver<dim>::assemble(DrivenBy cause)
   system.right_hand_side = 0.;
   for (const auto &term : balance.terms())
     term->add_tangent(system);
+  for (const auto &friction : forces->frictions)
+    friction->add_tangent(system);
   const auto &partitioner = *balance.residual().get_partitioner();
   for (unsigned int i = 0; i < balance.residual().locally_owned_size(); ++i)
   {
@@ -161,11 +164,12 @@ template <int dim>
 double QuasiStaticSolver<dim>::search_along(const Vector &increment, State &state)
 {
   // Approximate Wolfe conditions (W. W. Hager, H. Zhang, 2005): the energy decides until it drowns in
-  // round-off, then the slope does. Where the tangent is indefinite Newton's direction may lead uphill: then
-  // its opposite leads down.
+  // round-off, then the slope does. Friction has no energy: there the slope may decide earlier. Where the
+  // tangent is indefinite Newton's direction may lead uphill: then its opposite leads down.
   const double newton_slope = -(balance.residual() * increment);
   const double direction = newton_slope > 0. ? -1. : 1.;
   const double slope = direction * newton_slope;
+
   const double energy = balance.energy();
   const unsigned int searches = n_searches();
   const Vector start = state.displacement;
@@ -183,8 +187,9 @@ double QuasiStaticSolver<dim>::search_along(const Vector &increment, State &stat
       return step;
     const double new_slope = -direction * (balance.residual() * increment);
     const double round_off = 1e-10 * (std::abs(energy) + std::abs(new_energy));
+    const bool may_slope_decide = new_energy <= energy + round_off || !forces->frictions.empty();
     if (new_energy <= energy + 1e-4 * step * slope ||
-        (new_energy <= energy + round_off && std::abs(new_slope) <= 0.9 * std::abs(slope)))
+        (may_slope_decide && std::abs(new_slope) <= (1. - 0.1 * step) * std::abs(slope)))
       return step;
   }
   return 0.;
@@ -243,8 +248,15 @@ bool QuasiStaticSolver<dim>::find_minimum(State &state, NewtonReport &progress, 
     if (iteration == parameters.max_iterations)
       give_up(fmt::format("Newton's method only reached a relative residual of {:.3g}", progress.residual),
               "use more load steps, or raise Quasi-static/Maximum iterations");
+    for (const auto &friction : forces->frictions)
+      friction->hold();
+    if (!forces->frictions.empty())
+      balance.compute(state);
     progress.linear_iterations = compute_increment(DrivenBy::residual, increment);
     progress.step_length = search_along(increment, state);
+    for (const auto &friction : forces->frictions)
+      friction->release();
+
     if (progress.step_length == 0.)
       give_up("no step along Newton's direction lowers the energy", "use more load steps");
     ++total_iterations;
@@ -295,7 +307,8 @@ void QuasiStaticSolver<dim>::give_up(const std::string &why, const std::string &
     throw NumericalError(
         Complaint(fmt::format("{}: a net force of ({:.4g}) N is left that nothing balances", what,
                               fmt::join(net_force.data(), net_force.data() + dim, ", ")))
-            .advise("add a support: contact without friction lets bodies slide"));
+            .advise(forces->frictions.empty() ? "add a support: contact without friction lets bodies slide"
+                                              : "add a support, or press harder: the body slides"));
   if (balance.round_off_share(body) > parameters.tolerance)
     throw NumericalError(
         Complaint(fmt::format("{}, where round-off alone may be {:.1g} of the forces", what,

@@ -12,23 +12,10 @@ using namespace signorini::test;
 
 namespace
 {
-std::vector<Case> make_friction_cases()
-{
-  std::vector<Case> cases;
-  for (int dim : {2, 3})
-    for (unsigned int degree : {1, 2})
-      for (Target target : {Target::body, Target::plane, Target::sphere})
-        cases.push_back({dim, degree, target, Integration::face_quadrature});
-  for (unsigned int degree : {1, 2})
-    for (Triangles triangles : {Triangles::both, Triangles::upper, Triangles::lower})
-      cases.push_back({3, degree, Target::body, Integration::face_quadrature, Multipliers::none, triangles});
-  return cases;
-}
-
 class FrictionLaws : public SurfaceLaws
 {
 };
-INSTANTIATE_TEST_SUITE_P(All, FrictionLaws, testing::ValuesIn(make_friction_cases()), NameCase());
+INSTANTIATE_TEST_SUITE_P(All, FrictionLaws, testing::ValuesIn(make_cases_of_points()), NameCase());
 
 constexpr double never_slides = 1e6; // coefficient of friction
 
@@ -36,8 +23,9 @@ constexpr double never_slides = 1e6; // coefficient of friction
 template <int dim>
 struct Rubbing
 {
-  Rubbing(const PotentialScene<dim> &the_scene, double coefficient)
-      : scene(the_scene), potential(scene.make_potential()), friction(potential, coefficient)
+  Rubbing(const PotentialScene<dim> &the_scene, double coefficient,
+          SlidUnder slid_under = SlidUnder::mean_traction)
+      : scene(the_scene), potential(scene.make_potential()), friction(potential, coefficient, slid_under)
   {
     move_to(scene.positions);
     friction.commit();
@@ -308,7 +296,7 @@ TEST_P(FrictionLaws, SlipsOutliveTheirPoints)
         const auto x = stir<dim>(scene.positions, 11);
         rubbing.move_to(x);
         rubbing.friction.commit();
-        Friction<dim> heir(rubbing.potential, .3);
+        Friction<dim> heir(rubbing.potential, .3, SlidUnder::mean_traction);
         auto slips = rubbing.friction.placed_slips();
         std::reverse(slips.begin(), slips.end());
         heir.remember(slips);
@@ -319,10 +307,50 @@ TEST_P(FrictionLaws, SlipsOutliveTheirPoints)
         EXPECT_LT(norm<dim>(shifted<dim>(forces, rubbing.forces(), -1.)), 1e-13 * norm<dim>(forces));
         EXPECT_NEAR(heir.energy(), rubbing.friction.energy(), 1e-13 * heir.energy());
         // A weaker one keeps no more than its cone allows.
-        Friction<dim> weaker(rubbing.potential, .01);
+        Friction<dim> weaker(rubbing.potential, .01, SlidUnder::mean_traction);
         weaker.remember(slips);
         weaker.evaluate(scene.zeros());
         EXPECT_LT(weaker.energy(), heir.energy());
+      });
+}
+
+/// Of points that stick and of points that slide, with a step of finite length behind them.
+TEST_P(FrictionLaws, TangentIsTheDerivativeOfTheForces)
+{
+  on_scene(
+      [](const auto &scene, auto dimension)
+      {
+        constexpr int dim = decltype(dimension)::value;
+        for (const double coefficient : {.3, never_slides})
+        {
+          Rubbing<dim> rubbing(scene, coefficient);
+          rubbing.move_to(stir<dim>(scene.positions, 12));
+          rubbing.friction.commit();
+          const auto x = stir<dim>(scene.moved(SpatialVector<dim>::Constant(-.004)), 13);
+          RandomVectors<dim> random(14);
+          for (unsigned int trial = 0; trial < 4; ++trial)
+          {
+            constexpr double step = 1e-6;
+            const auto direction = random.field(x.size(), 1.);
+            const auto force_at = [&](double t)
+            {
+              rubbing.move_to(shifted<dim>(x, direction, t));
+              return rubbing.forces();
+            };
+            const auto difference = shifted<dim>(force_at(step), force_at(-step), -1.);
+            rubbing.move_to(x);
+            auto predicted = scene.zeros();
+            rubbing.friction.for_each_tangent(
+                [&](const std::vector<unsigned int> &nodes, const Eigen::MatrixXd &block)
+                {
+                  for (std::size_t a = 0; a < nodes.size(); ++a)
+                    for (std::size_t b = 0; b < nodes.size(); ++b)
+                      predicted[nodes[a]] -= block.block<dim, dim>(dim * a, dim * b) * direction[nodes[b]];
+                });
+            EXPECT_LT(norm<dim>(shifted<dim>(difference, predicted, -2. * step)),
+                      1e-6 * 2. * step * norm<dim>(predicted));
+          }
+        }
       });
 }
 
@@ -363,10 +391,10 @@ TEST(Friction, RefusesWhatHasNoSense)
   const Case segments{2, 1, Target::body, Integration::face_segments};
   const PotentialScene<2> scene(segments);
   const auto potential = scene.make_potential();
-  EXPECT_THROW(Friction<2>(potential, .3), std::invalid_argument);
+  EXPECT_THROW(Friction<2>(potential, .3, SlidUnder::mean_traction), std::invalid_argument);
   const PotentialScene<2> points({2, 1, Target::body, Integration::face_quadrature});
   const auto other = points.make_potential();
-  EXPECT_THROW(Friction<2>(other, -.1), std::invalid_argument);
-  EXPECT_NO_THROW(Friction<2>(other, 0.));
+  EXPECT_THROW(Friction<2>(other, -.1, SlidUnder::mean_traction), std::invalid_argument);
+  EXPECT_NO_THROW(Friction<2>(other, 0., SlidUnder::mean_traction));
 }
 } // namespace

@@ -54,6 +54,21 @@ protected:
   }
 };
 
+/// Scenes whose points stay, of both dimensions, degrees and all kinds of targets and faces.
+inline std::vector<Case> make_cases_of_points()
+{
+  std::vector<Case> cases;
+  for (int dim : {2, 3})
+    for (unsigned int degree : {1, 2})
+      for (Target target : {Target::body, Target::plane, Target::sphere})
+        cases.push_back({dim, degree, target, contact::Integration::face_quadrature});
+  for (Triangles triangles : {Triangles::both, Triangles::upper, Triangles::lower})
+    for (unsigned int degree : {1, 2})
+      cases.push_back(
+          {3, degree, Target::body, contact::Integration::face_quadrature, Multipliers::none, triangles});
+  return cases;
+}
+
 /// Laws of implicit steps.
 class StepLaws : public SurfaceLaws
 {

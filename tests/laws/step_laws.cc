@@ -10,20 +10,7 @@ using namespace signorini::test;
 
 namespace
 {
-std::vector<Case> make_cases()
-{
-  std::vector<Case> cases;
-  for (int dim : {2, 3})
-    for (unsigned int degree : {1, 2})
-      for (Target target : {Target::body, Target::plane, Target::sphere})
-        cases.push_back({dim, degree, target, Integration::face_quadrature});
-  for (Triangles triangles : {Triangles::both, Triangles::upper, Triangles::lower})
-    for (unsigned int degree : {1, 2})
-      cases.push_back({3, degree, Target::body, Integration::face_quadrature, Multipliers::none, triangles});
-  return cases;
-}
-
-INSTANTIATE_TEST_SUITE_P(Step, StepLaws, testing::ValuesIn(make_cases()), NameCase());
+INSTANTIATE_TEST_SUITE_P(Step, StepLaws, testing::ValuesIn(make_cases_of_points()), NameCase());
 
 /// Where the nodes of a scene were before a step: they slid, sank and bent in it.
 template <typename Scene>
@@ -237,7 +224,7 @@ struct RubbingStep
 
   RubbingStep(const PotentialScene<dim> &the_scene, double coefficient)
       : scene(the_scene), start(make_start(scene)), potential(scene.make_potential()),
-        friction(potential, coefficient)
+        friction(potential, coefficient, SlidUnder::last_traction)
   {
     // The slip at the start is not zero.
     for (const double way : {2e-3, 0.})
@@ -250,7 +237,7 @@ struct RubbingStep
     potential.update(scene.positions);
     potential.evaluate(scene.positions);
     potential.linearize(start);
-    friction.linearize(least);
+    friction.linearize(least, start);
   }
 
   /// One body slides by one along x.
@@ -259,10 +246,10 @@ struct RubbingStep
     return shifted<dim>(scene.moved(SpatialVector<dim>::Unit(0)), scene.positions, -1.);
   }
 
-  void follow(const Positions<dim> &increments)
+  void follow(const Positions<dim> &increments, double time_step = 1e-3)
   {
-    potential.follow(increments, 1e-3);
-    friction.follow(increments);
+    potential.follow(increments, time_step);
+    friction.follow();
   }
 
   Positions<dim> forces() const
@@ -313,13 +300,50 @@ TEST_P(StepLaws, TractionsOfStickAreTheGradientOfTheirEnergy)
         for (unsigned int trial = 0; trial < 4; ++trial)
         {
           const auto way = shifted<dim>(scene.zeros(), random.field(step.start.size(), 1.), length);
-          const auto energy_at = [&](double factor)
+          const auto energy_after = [&](double factor)
           {
-            step.friction.follow(shifted<dim>(scene.zeros(), way, factor));
+            step.follow(shifted<dim>(scene.zeros(), way, factor));
             return step.friction.energy();
           };
-          EXPECT_NEAR(energy_at(1.) - energy_at(-1.), -2. * dot<dim>(forces, way),
-                      1e-7 * length * norm<dim>(forces));
+          const double ahead = energy_after(1.), behind = energy_after(-2.);
+          step.follow(way);
+          EXPECT_NEAR(ahead - behind, -2. * dot<dim>(forces, way), 1e-7 * length * norm<dim>(forces));
+        }
+      });
+}
+
+TEST_P(StepLaws, TangentOfTractionsIsTheirDerivative)
+{
+  on_scene(
+      [](const auto &scene, auto dimension)
+      {
+        constexpr int dim = decltype(dimension)::value;
+        constexpr double length = 1e-6;
+        for (const double coefficient : {.2, never_slides})
+        {
+          constexpr double no_damping = 1e12; // time step
+          RubbingStep<dim> step(scene, coefficient);
+          step.follow(scene.zeros(), no_damping);
+          RandomVectors<dim> random(16);
+          for (unsigned int trial = 0; trial < 4; ++trial)
+          {
+            const auto way = shifted<dim>(scene.zeros(), random.field(step.start.size(), 1.), length);
+            auto predicted = scene.zeros();
+            step.friction.for_each_tangent(
+                [&](const std::vector<unsigned int> &nodes, const Eigen::MatrixXd &block)
+                {
+                  for (std::size_t a = 0; a < nodes.size(); ++a)
+                    for (std::size_t b = 0; b < nodes.size(); ++b)
+                      predicted[nodes[a]] -= block.block<dim, dim>(dim * a, dim * b) * way[nodes[b]];
+                });
+            step.follow(way, no_damping);
+            const auto ahead = step.forces();
+            step.follow(shifted<dim>(scene.zeros(), way, -2.), no_damping);
+            const auto difference = shifted<dim>(ahead, step.forces(), -1.);
+            step.follow(way, no_damping);
+            EXPECT_GT(norm<dim>(predicted), 0.);
+            EXPECT_LT(norm<dim>(shifted<dim>(difference, predicted, -2.)), 1e-6 * norm<dim>(predicted));
+          }
         }
       });
 }

@@ -14,9 +14,12 @@ namespace signorini
 /// *parted* in a row without a force in which their centres of mass move away from each other along it;
 /// touches are one collision until they have parted and then come towards each other anew. The sides of the
 /// centres are compared between the row before the first touch and the one after the last; exchanging them
-/// takes a way of at least a quarter of what the two measure along the line. What lies between two rows goes
+/// takes a way of at least a quarter of what the two measure along the line, and a penetration of a quarter
+/// of an element: without it they have rolled or slid around each other. What lies between two rows goes
 /// unseen.
-std::vector<Collision> find_collisions(const std::vector<HistoryRow> &history);
+///
+/// `largest_penetration`: of the whole history, over the size of an element; infinite where it tells nothing.
+std::vector<Collision> find_collisions(const std::vector<HistoryRow> &history, double largest_penetration);
 
 /// As in summaries: "passed through".
 std::string name_of(Collision::Outcome outcome);

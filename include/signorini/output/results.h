@@ -47,6 +47,7 @@ struct HistoryRow
 {
   double time = 0.;
   std::vector<BodyRecord> bodies;                           ///< and after them the obstacles
+  double rubbed_off = 0.;                                   ///< by friction until then [J; J/m in 2-D]
   std::set<std::pair<unsigned int, unsigned int>> touching; ///< those with a force between them
 };
 

@@ -175,7 +175,7 @@ struct ContactParameters
 {
   enum class Integration
   {
-    automatic, ///< face segments in quasi-static runs, face quadrature in explicit ones
+    automatic, ///< face segments in quasi-static runs without friction, else face quadrature
     face_quadrature,
     face_segments
   };

@@ -45,6 +45,7 @@ SceneNeed boxes_only();
 /// Quadrilaterals in 2-D.
 SceneNeed hexahedra_only();
 SceneNeed linear_elastic_bodies();
+SceneNeed no_transverse_contraction();
 SceneNeed no_viscosity();
 /// No body is rotated or scaled.
 SceneNeed shifts_only();

@@ -83,6 +83,8 @@ private:
   bool mark_in_motion(double duration, OtherCells others);
   /// Adapts the mesh in the middle of the run, `time_step` being the step that would be next.
   void adapt_in_explicit_run(double time_step);
+  /// Friction goes on from the present state.
+  void accept_slips();
   void record_quasi_static();
   /// Refines the mesh and finds the equilibrium anew until the estimated error or the cycles end it.
   void adapt_to_load();
@@ -99,8 +101,10 @@ private:
   double limit_time_step(double time_step) const;
   /// Of each term of contact.
   using MeasuresOfTerms = std::vector<contact::ContactMeasures<dim>>;
-  /// Whether points are so deep that they could pass through.
-  std::optional<Complaint> find_deep_penetration(const MeasuresOfTerms &measures) const;
+  /// The penetration of a term of contact that stops the run, over the size of an element.
+  double penetration_limit(std::size_t term) const;
+  /// Whether points are so deep that they could pass through. Warns once when the first are half as deep.
+  std::optional<Complaint> find_deep_penetration(const MeasuresOfTerms &measures);
   /// At the last update of the terms (collective).
   MeasuresOfTerms measure_terms() const;
   /// Of all terms together (collective).
@@ -108,6 +112,9 @@ private:
   static contact::ContactMeasures<dim> merge(const MeasuresOfTerms &measures);
   /// Takes a state that is part of the run into the results and their peaks.
   void record_contact(const MeasuresOfTerms &measures);
+  /// The slips of all frictions as they were last accepted, for those on another mesh (collective).
+  std::vector<std::vector<contact::PlacedSlip<dim>>> place_slips() const;
+  void remember_slips(std::vector<std::vector<contact::PlacedSlip<dim>>> slips);
   void record_bodies(const contact::PairForces<dim> &pair_forces);
   void record_contact_forces(const contact::PairForces<dim> &pair_forces);
   void record_support_forces(const Vector &reactions);
@@ -165,7 +172,8 @@ private:
   unsigned int next_adaptation_step = 0;     ///< explicit runs: the mesh is adapted before this step,
   double next_adaptation_time = 0.;          ///< and before this time, to which contact has been foreseen [s]
   unsigned int next_row = 1, next_field = 1; ///< runs in motion: of those that 'Output' asks for
-  double time_of_fields = 0.;                ///< runs in motion: at which the last ones were written [s]
+  bool has_warned_of_depth = false;
+  double time_of_fields = 0.; ///< runs in motion: at which the last ones were written [s]
   std::unique_ptr<Fields<dim>> fields;
   std::unique_ptr<Statistics> statistics; ///< on rank 0
   Results<dim> results;

@@ -53,7 +53,6 @@ public:
 
 private:
   using MotionSolver<dim>::energy_ledger;
-  using MotionSolver<dim>::momentum_ledger;
 
   /// Computes the first forces and the energies and momenta with them.
   void begin(State &state);

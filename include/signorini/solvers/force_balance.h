@@ -6,6 +6,8 @@
 #include "signorini/discretization/surface_map.h"
 #include "signorini/solvers/scene_forces.h"
 
+#include <functional>
+
 namespace signorini
 {
 /// The forces on all nodes and how far every body is from equilibrium.
@@ -53,7 +55,7 @@ public:
   /// What round-off may leave of a body's residual, relative like that.
   double round_off_share(unsigned int body) const { return round_off_shares[body]; }
 
-  /// The energy of all terms at the state of compute() [J] (collective).
+  /// The energy of all terms and the held energy of friction at the state of compute() [J] (collective).
   double energy() const;
 
   const std::vector<std::shared_ptr<ForceTerm>> &terms() const { return all_terms; }
@@ -76,6 +78,10 @@ private:
   RunTime *run_time;
   std::vector<std::shared_ptr<ForceTerm>> all_terms;
 
+  /// Adds to the residual and the norms of that kind what `add_force` adds to local and ghost entries.
+  void add(ForceTerm::Kind kind, const std::function<void(Vector &)> &add_force);
+
+  const Vector velocity; ///< none
   Vector free_forces, support_forces;
   std::vector<BodyNorms> norms;
   std::vector<double> largest_magnitudes; ///< [body] of elastic forces before they cancel, so far [N]

@@ -51,9 +51,6 @@ public:
   /// Forces of the last move, damping and friction included, on all nodes [N].
   const Vector &force() const { return total_force; }
 
-  /// Energy in the springs and elastic slips at the end of the last move [J].
-  double energy() const { return stored; }
-
 private:
   std::vector<SpatialVector<dim>> find_increments(double least, double time_step) const;
   void compute_forces();
@@ -67,6 +64,6 @@ private:
   std::vector<SpatialVector<dim>> surface_masses;
   Vector elastic_force; ///< of springs and elastic slips
   Vector damping_force, total_force, outer_force;
-  double stored = 0.;
+  double stored = 0.; ///< energy in springs and elastic slips at the end of the last move [J]
 };
 } // namespace signorini

@@ -57,12 +57,12 @@ private:
   void compute_forces(const State &state);
   void compute_velocities(State &state);
   double norm_by_mass(const Vector &velocity) const;
+  void book_obstacles(const State &state);
   void book_supports(const State &state);
 
   const Discretization<dim> *discretization;
   const SupportedDofs<dim> *supports;
   const SceneForces<dim> *forces;
-  RunTime *run_time;
   Vector mass;
   std::shared_ptr<StepInertia<dim>> inertia;
   std::shared_ptr<ConstantForce<dim>> impulse; ///< of loads and of the velocity at the start

@@ -10,7 +10,14 @@
 
 namespace signorini
 {
-/// Solves A x = b for symmetric A.
+/// Whether a matrix is its own transpose.
+enum class Symmetry
+{
+  symmetric,
+  unsymmetric
+};
+
+/// Solves A x = b.
 class LinearSolver
 {
 public:
@@ -24,10 +31,11 @@ public:
   virtual std::string name() const = 0;
 };
 
-/// Sparse symmetric factorisation by MUMPS, through PETSc.
-std::unique_ptr<LinearSolver> make_direct_solver();
+/// Sparse factorisation by MUMPS, through PETSc: Cholesky's, or LU.
+std::unique_ptr<LinearSolver> make_direct_solver(Symmetry symmetry);
 
-/// Conjugate gradients with hypre's BoomerAMG, whose iteration counts do not grow with the contact stiffness.
-/// `n_components`: of the displacement, numbered together at each node.
-std::unique_ptr<LinearSolver> make_amg_solver(unsigned int n_components, double relative_tolerance);
+/// Conjugate gradients, or GMRES, with hypre's BoomerAMG, whose iteration counts do not grow with the contact
+/// stiffness. `n_components`: of the displacement, numbered together at each node.
+std::unique_ptr<LinearSolver> make_amg_solver(unsigned int n_components, double relative_tolerance,
+                                              Symmetry symmetry);
 } // namespace signorini

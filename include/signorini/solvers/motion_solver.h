@@ -2,7 +2,10 @@
 #pragma once
 
 #include "signorini/physics/ledger.h"
+#include "signorini/physics/momentum.h"
 #include "signorini/physics/state.h"
+
+#include <algorithm>
 
 namespace signorini
 {
@@ -26,6 +29,25 @@ protected:
     energy_ledger.initial = energy_ledger.stored();
     momentum_ledger.initial_linear = momentum_ledger.linear;
     momentum_ledger.initial_angular = momentum_ledger.angular;
+  }
+
+  /// Takes the present momenta into the ledger.
+  void note_momentum(const VectorAndMoment &momentum)
+  {
+    momentum_ledger.linear = momentum.vector;
+    momentum_ledger.angular = momentum.moment;
+    momentum_ledger.linear_scale = std::max(momentum_ledger.linear_scale, momentum.vector_scale);
+    momentum_ledger.angular_scale = std::max(momentum_ledger.angular_scale, momentum.moment_scale);
+  }
+
+  /// Books an impulse from outside: `factor` times this.
+  void book_impulse(const VectorAndMoment &impulse, double factor = 1.)
+  {
+    for (unsigned int d = 0; d < 3; ++d)
+    {
+      momentum_ledger.linear_impulse[d] += factor * impulse.vector[d];
+      momentum_ledger.angular_impulse[d] += factor * impulse.moment[d];
+    }
   }
 
   EnergyLedger energy_ledger;

@@ -19,7 +19,8 @@ struct NewtonReport
 };
 
 /// Finds equilibria: minima of the energy of all force terms under given supports, by Newton's method with
-/// the exact tangent and a line search on the energy.
+/// the exact tangent and a line search on the energy. With friction, which has none and whose tangent is not
+/// symmetric, states in which all forces cancel; the caller accepts its slips (FrictionForce::commit()).
 ///
 /// A body that its supports leave free to move is held by contact. Where it is not (yet) touching, the
 /// tangent is singular; the tangent alone, not the forces, then gets a diagonal term a millionth as stiff as

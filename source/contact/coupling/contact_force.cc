@@ -122,7 +122,7 @@ void ContactForce<dim>::update(const State &state)
     std::vector<SpatialVector<dim>> x = map->positions(state.displacement);
     for (unsigned int node = 0; node < x.size(); ++node)
       x[node] -= potential.positions()[node];
-    potential.follow(x, 0.);
+    potential.follow(x, std::numeric_limits<double>::infinity()); // without damping
     return;
   }
   move_obstacles(state.time);

@@ -7,8 +7,8 @@ namespace signorini
 {
 template <int dim>
 FrictionForce<dim>::FrictionForce(const ContactForce<dim> &surface_contact, double coefficient,
-                                  const MPI_Comm &mpi_communicator)
-    : contact(&surface_contact), friction(surface_contact.surface_potential(), coefficient),
+                                  contact::SlidUnder slid_under, const MPI_Comm &mpi_communicator)
+    : contact(&surface_contact), friction(surface_contact.surface_potential(), coefficient, slid_under),
       communicator(mpi_communicator)
 {
 }
@@ -16,7 +16,10 @@ FrictionForce<dim>::FrictionForce(const ContactForce<dim> &surface_contact, doub
 template <int dim>
 void FrictionForce<dim>::update(const Vector &velocity)
 {
-  friction.evaluate(contact->nodes().gather(velocity));
+  if (contact->surface_potential().is_linear())
+    friction.follow();
+  else
+    friction.evaluate(contact->nodes().gather(velocity));
 }
 
 template <int dim>
@@ -33,11 +36,24 @@ double FrictionForce<dim>::energy() const
 }
 
 template <int dim>
+double FrictionForce<dim>::held_energy() const
+{
+  return dealii::Utilities::MPI::sum(friction.held_energy(), communicator);
+}
+
+template <int dim>
 void FrictionForce<dim>::add_force(Vector &force) const
 {
   std::vector<SpatialVector<dim>> nodal(contact->nodes().n_nodes(), SpatialVector<dim>::Zero());
   friction.add_forces(nodal);
   contact->nodes().add_to_owners(nodal, force);
+}
+
+template <int dim>
+void FrictionForce<dim>::add_tangent(TangentSystem &system) const
+{
+  friction.for_each_tangent([&](const std::vector<unsigned int> &nodes, const Eigen::MatrixXd &block)
+                            { contact->add_block(nodes, block, system); });
 }
 
 template <int dim>

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "signorini/contact/friction/friction.h"
 
+#include "signorini/contact/friction/friction_tangent.h"
 #include "signorini/contact/search/nearest_points.h"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <stdexcept>
@@ -12,8 +14,9 @@
 namespace signorini::contact
 {
 template <int dim>
-Friction<dim>::Friction(const ContactPotential<dim> &contact_potential, double friction_coefficient)
-    : potential(contact_potential), coefficient(friction_coefficient)
+Friction<dim>::Friction(const ContactPotential<dim> &contact_potential, double friction_coefficient,
+                        SlidUnder traction_to_slide_under)
+    : potential(contact_potential), coefficient(friction_coefficient), slid_under(traction_to_slide_under)
 {
   if (!(coefficient >= 0.))
     throw std::invalid_argument(
@@ -33,7 +36,8 @@ void Friction<dim>::evaluate(const std::vector<SpatialVector<dim>> &velocities)
     for (std::size_t i = 0; i < points.size(); ++i)
     {
       points[i].now = PointSlip<dim>();
-      points[i].dissipated = .5 * pairs[i].stiffness * points[i].before.elastic.squaredNorm();
+      points[i].slid = points[i].before.elastic;
+      points[i].traction = .5 * pairs[i].stiffness * points[i].before.elastic;
     }
   };
   let_go(potential.pair_list().body_pairs(), history.bodies);
@@ -96,12 +100,25 @@ std::vector<PlacedSlip<dim>> Friction<dim>::placed_slips() const
 }
 
 template <int dim>
-auto Friction<dim>::find_target_motion(const NearPair &near) const -> TargetMotion
+SpatialVector<dim> Friction<dim>::find_shift(unsigned int obstacle) const
 {
-  TargetMotion motion;
+  return potential.obstacle_places().shifts[obstacle] - old_shifts[obstacle];
+}
+
+template <int dim>
+SlipMotion<dim> Friction<dim>::find_motion(const NearPair &near) const
+{
+  SlipMotion<dim> motion;
+  motion.normal = near.foot.normal;
+  motion.now = motion.before = SpatialVector<dim>::Zero();
+  for (unsigned int a = 0; a < near.stencil.n_nodes; ++a)
+  {
+    motion.before += near.stencil.weight[a] * old_positions[near.stencil.node[a]];
+    motion.now += near.stencil.weight[a] * potential.positions()[near.stencil.node[a]];
+  }
   if (near.target == nullptr)
   {
-    motion.shift = potential.obstacle_places().shifts[near.pair.target] - old_shifts[near.pair.target];
+    motion.shift = find_shift(near.pair.target);
     return motion;
   }
   const LocalPoint<dim> &xi = near.foot.closest.xi;
@@ -111,54 +128,34 @@ auto Friction<dim>::find_target_motion(const NearPair &near) const -> TargetMoti
 }
 
 template <int dim>
-SpatialVector<dim> Friction<dim>::find_slip_increment(const NearPair &near, const TargetMotion &motion) const
-{
-  // From the target's material point at the foot (of an obstacle: from the origin) to the contactor's point.
-  SpatialVector<dim> before = SpatialVector<dim>::Zero(), now = before;
-  for (unsigned int a = 0; a < near.stencil.n_nodes; ++a)
-  {
-    before += near.stencil.weight[a] * old_positions[near.stencil.node[a]];
-    now += near.stencil.weight[a] * potential.positions()[near.stencil.node[a]];
-  }
-  const SpatialVector<dim> moved = now - motion.turn * before - motion.shift;
-  return moved - near.foot.normal.dot(moved) * near.foot.normal;
-}
-
-template <int dim>
-SpatialVector<dim> Friction<dim>::carry_over(const PointSlip<dim> &before, const TargetMotion &motion,
-                                             const SpatialVector<dim> &normal)
-{
-  if (!before.is_touching())
-    return SpatialVector<dim>::Zero();
-  return turn_to_plane<dim>(motion.turn * before.elastic, motion.turn * before.normal, normal);
-}
-
-template <int dim>
 void Friction<dim>::slip(const NearPair &near, double pressure, FrictionPoint<dim> &point) const
 {
   const CoulombLaw law{coefficient, near.pair.stiffness};
-  const TargetMotion motion = find_target_motion(near);
-  const SpatialVector<dim> kept = carry_over(point.before, motion, near.foot.normal);
-  const SpatialVector<dim> trial = kept + find_slip_increment(near, motion);
-  point.now.elastic = law.find_elastic_slip(trial, pressure);
+  const SlipMotion<dim> motion = find_motion(near);
+  const SpatialVector<dim> kept = motion.carry(point.before), trial = kept + motion.find_increment();
+  point.now.elastic = point.is_held ? trial : law.find_elastic_slip(trial, pressure);
   point.now.normal = near.foot.normal;
-  point.dissipated = .5 * law.stiffness * (kept + point.now.elastic).dot(trial - point.now.elastic);
+  point.slid = trial - point.now.elastic;
+  point.traction = law.stiffness * (slid_under == SlidUnder::last_traction
+                                        ? point.now.elastic
+                                        : SpatialVector<dim>(.5 * (kept + point.now.elastic)));
 }
 
 template <int dim>
-auto Friction<dim>::find_levers(const NearPair &near) const -> typename LinearSlip<dim>::Levers
+auto Friction<dim>::find_levers(const NearPair &near, const Positions &acting) ->
+    typename LinearSlip<dim>::Levers
 {
   typename LinearSlip<dim>::Levers levers = LinearSlip<dim>().levers;
   if (near.target == nullptr)
     return levers;
   const LocalPoint<dim> &xi = near.foot.closest.xi;
-  const FacetNodes<dim> nodes = gather_nodes(*near.target, old_positions);
+  const FacetNodes<dim> nodes = gather_nodes(*near.target, acting);
   const auto dual = find_oblique_dual(evaluate_facet_frame(nodes, xi), near.foot.normal);
   if (!dual)
     return levers;
   double arm = 0.; // from the place of the target that takes the force to the contactor's point
   for (unsigned int a = 0; a < near.stencil.n_nodes; ++a)
-    arm += near.stencil.weight[a] * near.foot.normal.dot(old_positions[near.stencil.node[a]]);
+    arm += near.stencil.weight[a] * near.foot.normal.dot(acting[near.stencil.node[a]]);
   const FacetShape<dim> shape = evaluate_facet_shape(nodes, xi);
   for (unsigned int b = 0; b < shape.n_nodes; ++b)
     for (unsigned int i = 0; i < dim - 1; ++i)
@@ -167,17 +164,20 @@ auto Friction<dim>::find_levers(const NearPair &near) const -> typename LinearSl
 }
 
 template <int dim>
-void Friction<dim>::linearize(double least)
+void Friction<dim>::linearize(double least, const Positions &acting)
 {
   history.follow(potential.pair_list());
-  linear_slips.assign(history.bodies.size() + history.obstacles.size(), SpatialVector<dim>::Zero());
+  linear_positions = potential.positions();
+  linear_slips.assign(history.bodies.size() + history.obstacles.size(), LinearSlip<dim>());
   potential.for_each_overlap_above(least,
                                    [&](const NearPair &near)
                                    {
-                                     const TargetMotion motion = find_target_motion(near);
-                                     linear_slips[near.index] = carry_over(point_of(near, history).before,
-                                                                           motion, near.foot.normal) +
-                                                                find_slip_increment(near, motion);
+                                     const SlipMotion<dim> motion = find_motion(near);
+                                     LinearSlip<dim> &slip = linear_slips[near.index];
+                                     slip.coefficient = coefficient;
+                                     slip.trial = motion.carry(point_of(near, history).before) +
+                                                  motion.find_increment();
+                                     slip.levers = find_levers(near, acting);
                                    });
 }
 
@@ -189,40 +189,41 @@ void Friction<dim>::for_each_linear_point(double least,
                                    [&](const NearPair &near)
                                    {
                                      LinearPoint<dim> point = potential.make_linear_point(near);
-                                     point.slip.coefficient = coefficient;
-                                     point.slip.trial = linear_slips[near.index];
-                                     point.slip.levers = find_levers(near);
+                                     point.slip = linear_slips[near.index];
                                      visit(point);
                                    });
 }
 
 template <int dim>
-void Friction<dim>::follow(const Positions &increments)
+void Friction<dim>::follow()
 {
   for (auto *const points : {&history.bodies, &history.obstacles})
     for (FrictionPoint<dim> &point : *points)
     {
       point.now = PointSlip<dim>();
-      point.dissipated = 0.;
+      point.slid = point.traction = SpatialVector<dim>::Zero();
     }
   potential.for_each_overlap_above(
       0.,
       [&](const NearPair &near)
       {
         const SpatialVector<dim> &normal = near.foot.normal;
-        const auto levers = find_levers(near);
+        const LinearSlip<dim> &slip = linear_slips[near.index];
         SpatialVector<dim> moved = SpatialVector<dim>::Zero();
         for (unsigned int a = 0; a < near.stencil.n_nodes; ++a)
         {
-          const SpatialVector<dim> &increment = increments[near.stencil.node[a]];
-          moved += near.stencil.weight[a] * increment + normal.dot(increment) * levers[a];
+          const unsigned int node = near.stencil.node[a];
+          const SpatialVector<dim> increment = potential.positions()[node] - linear_positions[node];
+          moved += near.stencil.weight[a] * increment + normal.dot(increment) * slip.levers[a];
         }
         const CoulombLaw law{coefficient, near.pair.stiffness};
-        const SpatialVector<dim> trial = linear_slips[near.index] + moved - normal.dot(moved) * normal;
+        const SpatialVector<dim> trial = slip.trial + moved - normal.dot(moved) * normal;
         FrictionPoint<dim> &point = point_of(near, history);
-        // The velocities do not matter: the damping is that of the step.
-        point.now = {law.find_elastic_slip(trial, potential.total_pressure(near, increments)), normal};
-        point.dissipated = law.stiffness * point.now.elastic.dot(trial - point.now.elastic);
+        // Velocities do not matter: the damping is that of the step.
+        const double pressure = potential.total_pressure(near, linear_positions);
+        point.now = {point.is_held ? trial : law.find_elastic_slip(trial, pressure), normal};
+        point.slid = trial - point.now.elastic;
+        point.traction = law.stiffness * point.now.elastic;
       });
 }
 
@@ -244,7 +245,7 @@ void Friction<dim>::add_forces(std::vector<SpatialVector<dim>> &forces) const
           forces[near.stencil.node[a]] += near.stencil.weight[a] * force;
         if (potential.is_linear())
         {
-          const auto levers = find_levers(near);
+          const auto &levers = linear_slips[near.index].levers;
           for (unsigned int a = 0; a < near.stencil.n_nodes; ++a)
             forces[near.stencil.node[a]] += levers[a].dot(force) * near.foot.normal;
           return;
@@ -255,8 +256,62 @@ void Friction<dim>::add_forces(std::vector<SpatialVector<dim>> &forces) const
         const SpatialVector<dim> arm = -near.foot.gap;
         const SpatialTensor<dim> couple = force * arm.transpose() - arm * force.transpose();
         const FacetBasis<dim> basis(gather_nodes(*near.target, potential.positions()), near.foot.closest.xi);
-        for (unsigned int b = 0; b < basis.shape.n_nodes; ++b)
+        for (unsigned int b = 0; b < near.target->n_nodes(); ++b)
           forces[near.target->nodes[b]] += couple_force(basis, b, couple);
+      });
+}
+
+template <int dim>
+void Friction<dim>::compute_linear_tangent(const NearPair &near, Eigen::MatrixXd &block) const
+{
+  const FrictionPoint<dim> &point = point_of(near, history);
+  const CoulombLaw law{coefficient, near.pair.stiffness};
+  const SpatialVector<dim> &normal = near.foot.normal;
+  SlipDerivatives<dim> slopes{SpatialTensor<dim>::Identity(), SpatialVector<dim>::Zero()};
+  if (!point.is_held)
+    slopes = law.differentiate<dim>(point.now.elastic + point.slid, near.pressure());
+  const PairStencil<dim> &stencil = near.stencil;
+  block.resize(dim * stencil.n_nodes, dim * stencil.n_nodes);
+  const auto slip_by_node = [&](unsigned int a) -> SpatialTensor<dim>
+  {
+    return stencil.weight[a] * (SpatialTensor<dim>::Identity() - normal * normal.transpose()) +
+           linear_slips[near.index].levers[a] * normal.transpose();
+  };
+  for (unsigned int b = 0; b < stencil.n_nodes; ++b)
+  {
+    const SpatialVector<dim> pressure_by_node = -law.stiffness * stencil.weight[b] * normal;
+    const SpatialTensor<dim> elastic_by_node =
+        slopes.by_trial * slip_by_node(b) + slopes.by_pressure * pressure_by_node.transpose();
+    for (unsigned int a = 0; a < stencil.n_nodes; ++a)
+      block.template block<dim, dim>(dim * a, dim * b) =
+          near.pair.area * law.stiffness * slip_by_node(a).transpose() * elastic_by_node;
+  }
+}
+
+template <int dim>
+void Friction<dim>::for_each_tangent(const std::function<void(const std::vector<unsigned int> &nodes,
+                                                              const Eigen::MatrixXd &block)> &add) const
+{
+  std::vector<unsigned int> nodes;
+  Eigen::MatrixXd block;
+  potential.for_each_overlap_above(
+      -ContactPotential<dim>::verge * potential.pair_list().skin(),
+      [&](const NearPair &near)
+      {
+        const SpatialVector<dim> old_position = interpolate(near.contactor, near.pair.shape, old_positions);
+        const FrictionPoint<dim> &friction = point_of(near, history);
+        const RubbingPoint<dim> point{near.pair,       near.foot,        near.stencil, near.target,
+                                      friction.before, friction.is_held, old_position, coefficient};
+        nodes.assign(near.stencil.node.begin(), near.stencil.node.begin() + near.stencil.n_nodes);
+        if (potential.is_linear())
+          compute_linear_tangent(near, block);
+        else if (near.target != nullptr)
+          compute_body_friction_tangent(point, gather_nodes(*near.target, potential.positions()),
+                                        gather_nodes(*near.target, old_positions), block);
+        else
+          compute_obstacle_friction_tangent(point, find_shift(near.pair.target),
+                                            potential.obstacle_hessian(near), block);
+        add(nodes, block);
       });
 }
 
@@ -275,6 +330,50 @@ double Friction<dim>::energy() const
 }
 
 template <int dim>
+void Friction<dim>::hold()
+{
+  for (auto *const points : {&history.bodies, &history.obstacles})
+    for (FrictionPoint<dim> &point : *points)
+    {
+      point.held_limit = 0.;
+      point.is_held = point.slid.dot(point.direction) < 0.;
+      point.direction = SpatialVector<dim>::Zero();
+      if (!point.is_held && point.now.is_touching() && point.slid != point.direction)
+        point.direction = point.slid.normalized();
+    }
+  potential.for_each_overlap_above(0.,
+                                   [&](const NearPair &near)
+                                   {
+                                     const CoulombLaw law{coefficient, near.pair.stiffness};
+                                     point_of(near, history).held_limit = law.limit(near.pressure());
+                                   });
+}
+
+template <int dim>
+void Friction<dim>::release()
+{
+  for (auto *const points : {&history.bodies, &history.obstacles})
+    for (FrictionPoint<dim> &point : *points)
+      point.is_held = false;
+}
+
+template <int dim>
+double Friction<dim>::held_energy() const
+{
+  double sum = 0.;
+  potential.for_each_overlap_above(
+      0.,
+      [&](const NearPair &near)
+      {
+        const FrictionPoint<dim> &point = point_of(near, history);
+        const double trial = (point.now.elastic + point.slid).norm(),
+                     elastic = point.is_held ? trial : std::min(trial, point.held_limit);
+        sum += near.pair.area * near.pair.stiffness * elastic * (trial - .5 * elastic);
+      });
+  return sum;
+}
+
+template <int dim>
 double Friction<dim>::commit()
 {
   old_positions = potential.positions();
@@ -284,9 +383,9 @@ double Friction<dim>::commit()
   {
     for (std::size_t i = 0; i < points.size(); ++i)
     {
-      dissipated += pairs[i].area * points[i].dissipated;
+      dissipated += pairs[i].area * points[i].traction.dot(points[i].slid);
       points[i].before = points[i].now;
-      points[i].dissipated = 0.;
+      points[i].slid = points[i].traction = SpatialVector<dim>::Zero();
     }
   };
   accept(potential.pair_list().body_pairs(), history.bodies);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "signorini/contact/potential/contact_potential.h"
 
-#include "signorini/contact/geometry/local_domain.h"
+#include "signorini/contact/potential/foot_slide.h"
 #include "signorini/contact/potential/pair_tangent.h"
 
 #include <algorithm>
@@ -11,12 +11,6 @@
 
 namespace signorini::contact
 {
-namespace
-{
-/// Share of the skin up to which a gap counts as closed in the tangent.
-constexpr double verge = 1e-8;
-} // namespace
-
 template <int dim>
 ContactPotential<dim>::ContactPotential(const ContactSurface<dim> &contact_surface, Obstacles obstacles,
                                         PotentialSettings settings)
@@ -127,8 +121,7 @@ PairFoot<dim> ContactPotential<dim>::find_pair_foot(const ContactPair<dim> &pair
   result.closest = foot.closest;
   result.gap = result.position - foot.closest.position;
   result.shape = evaluate_facet_shape(target, foot.closest.xi).value;
-  const bool is_inside_facet = find_local_place(target, foot.closest.xi, 0.).n_free == dim - 1;
-  if (!is_inside_facet && foot.closest.distance > 1e-9 * target.layer_thickness)
+  if (!has_normal_of_facet(target, foot.closest))
   {
     result.normal = result.gap / -foot.depth;
     return result;
@@ -256,8 +249,7 @@ void ContactPotential<dim>::for_each_tangent(
           compute_body_tangent(near.pair, near.foot, near.stencil,
                                gather_nodes(*near.target, evaluated_positions), block);
         else
-          compute_obstacle_tangent(near.pair, near.foot, near.stencil,
-                                   obstacle_hessians[near.index - body_feet.size()], block);
+          compute_obstacle_tangent(near.pair, near.foot, near.stencil, obstacle_hessian(near), block);
         add(nodes, block);
       });
 }

@@ -160,7 +160,7 @@ template <int dim>
 SpatialVector<dim> ContactProblem<dim>::find_elastic_slip(const Point &point, const SpatialVector<dim> &slip,
                                                           double pressure)
 {
-  return CoulombLaw{point.coefficient, point.stiffness}.find_elastic_slip<dim>(slip, std::max(pressure, 0.));
+  return CoulombLaw{point.coefficient, point.stiffness}.find_elastic_slip(slip, std::max(pressure, 0.));
 }
 
 template <int dim>

@@ -132,7 +132,7 @@ TYPED_TEST(FacetTurnTest, ShortestTurnKeepsLengthAndBothPlanes)
     EXPECT_NEAR(turned.dot(to), 0., 1e-12);
     EXPECT_LT((turn_to_plane<dim>(turned, to, from) - slip).norm(), 1e-11);
     EXPECT_LT((turn_to_plane<dim>(slip, from, from) - slip).norm(), 1e-15);
-    EXPECT_EQ(turn_to_plane<dim>(slip, from, -from).norm(), 0.);
+    EXPECT_EQ(turn_to_plane<dim>(slip, from, SpatialVector<dim>(-from)).norm(), 0.);
   }
 }
 } // namespace

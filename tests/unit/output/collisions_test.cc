@@ -8,6 +8,8 @@ using Outcome = Collision::Outcome;
 
 namespace
 {
+constexpr double deep = 1.; // penetration
+
 /// A body above another one at rest: the height and velocity of its centre, and the force on it.
 struct Moment
 {
@@ -44,7 +46,7 @@ void expect_one(const std::vector<Moment> &moments, double begin, double end, Ou
   for (unsigned int axis = 0; axis < 3; ++axis)
     for (const auto &view : {moments, below})
     {
-      const std::vector<Collision> collisions = find_collisions(make_history(view, axis));
+      const std::vector<Collision> collisions = find_collisions(make_history(view, axis), deep);
       ASSERT_EQ(collisions.size(), 1u);
       EXPECT_EQ(collisions[0].one, 0u);
       EXPECT_EQ(collisions[0].other, 1u);
@@ -54,10 +56,18 @@ void expect_one(const std::vector<Moment> &moments, double begin, double end, Ou
     }
 }
 
+/// Bodies that have hardly sunk into each other have rolled around each other.
+TEST(Collisions, WhatWasNeverDeepHasNotPassedThrough)
+{
+  const auto history = make_history({{2, -1, 0}, {1, 0, 2}, {-2, -1, 0}}, 2);
+  EXPECT_EQ(find_collisions(history, .3).at(0).outcome, Outcome::passed_through);
+  EXPECT_EQ(find_collisions(history, .2).at(0).outcome, Outcome::bounced);
+}
+
 TEST(Collisions, NothingTouches)
 {
-  EXPECT_TRUE(find_collisions({}).empty());
-  EXPECT_TRUE(find_collisions(make_history({{2, -1, 0}, {1, -1, 0}}, 2)).empty());
+  EXPECT_TRUE(find_collisions({}, deep).empty());
+  EXPECT_TRUE(find_collisions(make_history({{2, -1, 0}, {1, -1, 0}}, 2), deep).empty());
 }
 
 TEST(Collisions, Bounce)
@@ -92,8 +102,8 @@ TEST(Collisions, ChatterOfOneImpactIsOneBounce)
 
 TEST(Collisions, ComingBackIsAnotherOne)
 {
-  const std::vector<Collision> collisions =
-      find_collisions(make_history({{2, -1, 0}, {1, 0, 2}, {2, 1, 0}, {2, -1, 0}, {1, 0, 2}, {2, 1, 0}}, 2));
+  const std::vector<Collision> collisions = find_collisions(
+      make_history({{2, -1, 0}, {1, 0, 2}, {2, 1, 0}, {2, -1, 0}, {1, 0, 2}, {2, 1, 0}}, 2), deep);
   ASSERT_EQ(collisions.size(), 2u);
   EXPECT_EQ(collisions[0].begin, 1.);
   EXPECT_EQ(collisions[0].end, 1.);
@@ -139,7 +149,7 @@ TEST(Collisions, SlidingOffAnEdgeIsNotPassingThrough)
     history[i].touching.emplace(0, 1);
     history[i].bodies[0].contact_force[2] = 1.;
   }
-  const std::vector<Collision> collisions = find_collisions(history);
+  const std::vector<Collision> collisions = find_collisions(history, deep);
   ASSERT_EQ(collisions.size(), 1u);
   EXPECT_EQ(collisions[0].end, 2.);
   EXPECT_EQ(collisions[0].outcome, Outcome::bounced);
@@ -161,7 +171,7 @@ TEST(Collisions, HittingSideBySideOnAFloorIsNotPassingThrough)
   }
   history[1].touching.emplace(0, 1);
   history[1].bodies[0].contact_force = {-1., 0., 100.};
-  const std::vector<Collision> collisions = find_collisions(history);
+  const std::vector<Collision> collisions = find_collisions(history, deep);
   ASSERT_EQ(collisions.size(), 1u);
   EXPECT_EQ(collisions[0].outcome, Outcome::bounced);
 }
@@ -182,7 +192,7 @@ TEST(Collisions, SeveralComeInTheOrderOfTheirEnds)
   }
   history[1].touching = {{0, 2}, {1, 2}};
   history[2].touching = {{0, 2}};
-  const std::vector<Collision> collisions = find_collisions(history);
+  const std::vector<Collision> collisions = find_collisions(history, deep);
   ASSERT_EQ(collisions.size(), 2u);
   EXPECT_EQ(collisions[0].one, 1u);
   EXPECT_EQ(collisions[1].one, 0u);

@@ -134,8 +134,8 @@ void add_friction(BuiltScene<dim> &built, double coefficient)
 {
   contact::PotentialSettings settings = make_settings(contact::Integration::face_quadrature);
   settings.damping_ratio = .3;
-  built.forces.frictions.push_back(
-      std::make_shared<FrictionForce<dim>>(*built.add_contact(settings), coefficient, MPI_COMM_WORLD));
+  built.forces.frictions.push_back(std::make_shared<FrictionForce<dim>>(
+      *built.add_contact(settings), coefficient, contact::SlidUnder::mean_traction, MPI_COMM_WORLD));
 }
 
 TYPED_TEST(Explicit, BodiesThatRubKeepTheirMomenta)

@@ -105,6 +105,12 @@ public:
 
   const ContactSurface<dim> &surface() const { return map->surface(); }
 
+  /// Of the surface's nodes, from its origin [m].
+  std::vector<SpatialVector<dim>> positions(const Vector &displacement) const
+  {
+    return map->positions(displacement);
+  }
+
   /// What acts on this rank's facets; positions in it are from the surface's origin.
   const contact::ContactPotential<dim> &surface_potential() const { return potential; }
 

@@ -33,6 +33,10 @@ public:
   /// What each rank has as that of all ranks, the same on all of them (collective).
   contact::PairForces<dim> sum(const contact::PairForces<dim> &own) const;
 
+  /// Adds a block on some nodes, node-major, to the system's matrix.
+  void add_block(const std::vector<unsigned int> &block_nodes, const Eigen::MatrixXd &block,
+                 TangentSystem &system) const;
+
 protected:
   /// What each rank measured, with positions from `origin`, as that of all ranks (collective).
   contact::ContactMeasures<dim> sum(contact::ContactMeasures<dim> own,
@@ -40,10 +44,6 @@ protected:
 
   /// Adds the same value to all components of a node, from nodal values of every rank (collective).
   void spread(const std::vector<double> &nodal, Vector &values) const;
-
-  /// Adds a block on some nodes, node-major, to the system's matrix.
-  void add_block(const std::vector<unsigned int> &block_nodes, const Eigen::MatrixXd &block,
-                 TangentSystem &system) const;
 
   const MPI_Comm communicator;
 };

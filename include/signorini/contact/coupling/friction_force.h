@@ -13,7 +13,8 @@ class FrictionForce
 {
 public:
   /// On `contact`, which must outlive this object, with the friction coefficient μ ≥ 0.
-  FrictionForce(const ContactForce<dim> &contact, double coefficient, const MPI_Comm &communicator);
+  FrictionForce(const ContactForce<dim> &contact, double coefficient, contact::SlidUnder slid_under,
+                const MPI_Comm &communicator);
 
   bool is_external() const { return contact->is_external; }
 
@@ -21,20 +22,33 @@ public:
   std::vector<SpatialVector<dim>> obstacle_increments() const { return contact->obstacle_increments(); }
 
   /// Slips from the last accepted step to the state that the contact was updated to, under the pressures with
-  /// damping at `velocity` (collective).
+  /// damping at `velocity`; where its depths are linear, linear ones (collective).
   void update(const Vector &velocity);
 
   /// See contact::Friction::linearize(), for_each_linear_point() and follow(): after those of the contact,
   /// whose add_points() this one's add_points() replaces.
-  void linearize(double least) { friction.linearize(least); }
+  void linearize(double least, const Vector &acting)
+  {
+    friction.linearize(least, contact->positions(acting));
+  }
   void add_points(double least, contact::ContactProblem<dim> &problem) const;
-  void follow(const std::vector<SpatialVector<dim>> &increments) { friction.follow(increments); }
+  void follow() { friction.follow(); }
 
   /// Stored in the elastic slip of all ranks together [J; J/m in 2-D] (collective).
   double energy() const;
 
+  /// See contact::Friction::hold(), release() and held_energy(); the latter of all ranks together
+  /// (collective).
+  void hold() { friction.hold(); }
+  void release() { friction.release(); }
+  double held_energy() const;
+
   /// Adds to local and ghost entries; the caller collects.
   void add_force(Vector &force) const;
+
+  /// Adds minus its derivative by the displacement, which is not symmetric, to a matrix with the couplings of
+  /// the contact; see contact::Friction::for_each_tangent().
+  void add_tangent(TangentSystem &system) const;
 
   /// Accepts the step; returns what all ranks dissipated in it [J; J/m in 2-D] (collective).
   double commit();

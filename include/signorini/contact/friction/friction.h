@@ -3,11 +3,19 @@
 
 #include "signorini/contact/friction/facet_turn.h"
 #include "signorini/contact/friction/slip_history.h"
+#include "signorini/contact/friction/slip_motion.h"
 #include "signorini/contact/potential/contact_potential.h"
 #include "signorini/contact/potential/coulomb_law.h"
 
 namespace signorini::contact
 {
+/// The traction under which a point slides in a step.
+enum class SlidUnder
+{
+  mean_traction, ///< of the start and the end: of second order in the step
+  last_traction  ///< that of the end: what an implicit step balances, never negative
+};
+
 /// Coulomb friction of the points of a surface potential, from step to step (doc/theory.md, section 6a).
 ///
 /// A point in contact has an elastic slip s in the tangent plane of its target and the traction τ = −k_A s on
@@ -28,21 +36,22 @@ public:
 
   /// `potential` must outlive this object; `coefficient`: μ ≥ 0. Throws std::invalid_argument for face
   /// segments, whose points do not stay, and for a coefficient without sense.
-  Friction(const ContactPotential<dim> &potential, double coefficient);
+  Friction(const ContactPotential<dim> &potential, double coefficient, SlidUnder slid_under);
 
   /// Slips from the positions of the last commit() to those that the potential was evaluated at, by the
   /// pressures with damping at the velocities of the nodes. The first time nothing has moved yet.
   void evaluate(const std::vector<SpatialVector<dim>> &velocities);
 
   /// Takes the slips since the last commit() for linear functions of the nodes' positions, around those that
-  /// the potential is linear around, of points that overlap by more than `least` [m].
-  void linearize(double least);
+  /// the potential is linear around, of points that overlap by more than `least` [m]. Their forces have no
+  /// moment about the positions `acting`.
+  void linearize(double least, const Positions &acting);
 
   /// ContactPotential::for_each_linear_point() with these slips.
   void for_each_linear_point(double least, const std::function<void(const LinearPoint<dim> &)> &visit) const;
 
-  /// The slips after the nodes have moved on by `increments` [m], by the pressures at the end of the step.
-  void follow(const Positions &increments);
+  /// The slips where the potential has followed the nodes to, by the pressures there.
+  void follow();
 
   /// The points that touch, as of the last evaluation.
   std::vector<PlacedSlip<dim>> placed_slips() const;
@@ -53,13 +62,32 @@ public:
 
   double energy() const; ///< Σ A ½ k_A |s|² [J]
 
+  /// For an iteration that looks for a balance: takes the pressures of the last evaluation for those of
+  /// held_energy(), and lets points stick that would slide the other way than at the last hold(). Between the
+  /// two directions lies the narrow range of stick, which an iteration that sees only one of them leaps over
+  /// for ever.
+  void hold();
+
+  /// Lets all points obey Coulomb's law again.
+  void release();
+
+  /// Σ A k_A (½ |s|² + |s| |Δs_slid|) with the slip s that held pressures would leave of the trial slip: the
+  /// function of the positions, convex in the slip, whose gradient the forces are at held pressures [J].
+  double held_energy() const;
+
   /// Adds the forces of the tractions to those of the nodes.
   void add_forces(std::vector<SpatialVector<dim>> &forces) const;
 
-  /// Accepts the step last evaluated. Returns what it dissipated [J]: of every point A times the mean of its
-  /// tractions before and after, times the way it slid. Not negative but for points that turn round while
-  /// they lose most of their pressure in the same step. After follow() the traction is that of the end, and
-  /// nothing is ever negative.
+  /// Calls `add(nodes, block)` for every point that touches, those on the very verge as if they stuck, with
+  /// minus the derivative of these forces by the
+  /// positions of the nodes, node-major, see compute_body_friction_tangent(); after evaluate() or follow() at
+  /// rest.
+  void for_each_tangent(const std::function<void(const std::vector<unsigned int> &nodes,
+                                                 const Eigen::MatrixXd &block)> &add) const;
+
+  /// Accepts the step last evaluated. Returns what it dissipated [J]: of every point A times its traction,
+  /// times the way it slid; a point that parts gives up what it stored. With the mean of the tractions not
+  /// negative but for points that turn round while they lose most of their pressure in the same step.
   double commit();
 
   /// Resultants of the tractions by pair.
@@ -73,21 +101,15 @@ private:
 
   void begin();
 
-  /// How the target of a point has moved since the last commit, apart from what its nodes interpolate.
-  struct TargetMotion
-  {
-    SpatialTensor<dim> turn = SpatialTensor<dim>::Identity();
-    SpatialVector<dim> shift = SpatialVector<dim>::Zero(); ///< [m]
-  };
-
-  TargetMotion find_target_motion(const NearPair &near) const;
-  SpatialVector<dim> find_slip_increment(const NearPair &near, const TargetMotion &motion) const;
-  /// The slip there was, as it would be now had nothing slipped since.
-  static SpatialVector<dim> carry_over(const PointSlip<dim> &before, const TargetMotion &motion,
-                                       const SpatialVector<dim> &normal);
+  /// Since the last commit.
+  SlipMotion<dim> find_motion(const NearPair &near) const;
+  /// How an obstacle moved since the last commit [m].
+  SpatialVector<dim> find_shift(unsigned int obstacle) const;
   void slip(const NearPair &near, double pressure, FrictionPoint<dim> &point) const;
-  /// The levers of LinearSlip about the positions of the last commit.
-  typename LinearSlip<dim>::Levers find_levers(const NearPair &near) const;
+  /// The levers of LinearSlip about the positions `acting`.
+  static typename LinearSlip<dim>::Levers find_levers(const NearPair &near, const Positions &acting);
+  /// ∂(slip)/∂x and the rest of the tangent of a point whose slip is linear; overwrites `block`.
+  void compute_linear_tangent(const NearPair &near, Eigen::MatrixXd &block) const;
 
   static auto partners_of(const NearPair &near)
   {
@@ -108,10 +130,12 @@ private:
 
   const ContactPotential<dim> &potential;
   double coefficient;
+  SlidUnder slid_under;
   SlipHistory<dim> history;
-  std::vector<PlacedSlip<dim>> remembered; ///< until the first evaluation
-  Positions old_positions;                 ///< of the last commit; empty before the first
-  Positions old_shifts;                    ///< of the obstacles, then
-  Positions linear_slips;                  ///< the trial slips of LinearSlip, body pairs first [m]
+  std::vector<PlacedSlip<dim>> remembered;   ///< until the first evaluation
+  Positions old_positions;                   ///< of the last commit; empty before the first
+  Positions old_shifts;                      ///< of the obstacles, then
+  std::vector<LinearSlip<dim>> linear_slips; ///< after linearize(), one a pair, body pairs first
+  Positions linear_positions;                ///< that these are trial slips at
 };
 } // namespace signorini::contact

@@ -23,7 +23,11 @@ struct FrictionPoint
 {
   PointSlip<dim> before;  ///< at the end of the last step
   PointSlip<dim> now;     ///< at the positions of the last evaluation
-  double dissipated = 0.; ///< by what slid from one to the other [J/m²]
+  double held_limit = 0.; ///< of the elastic slip, under the pressure that cones are held at [m]
+  bool is_held = false;   ///< sticks whatever its limit, see Friction::hold()
+  SpatialVector<dim> direction = SpatialVector<dim>::Zero(); ///< of sliding at the last hold(); zero: none
+  SpatialVector<dim> slid = SpatialVector<dim>::Zero();      ///< from one to the other [m]
+  SpatialVector<dim> traction = SpatialVector<dim>::Zero();  ///< that it slid under [Pa]
 };
 
 /// The friction of a point that is told by its place, so that points of another mesh can take it over.

@@ -78,6 +78,9 @@ public:
   double add_damping_forces(const std::vector<SpatialVector<dim>> &velocities,
                             std::vector<SpatialVector<dim>> &forces) const;
 
+  /// Share of the skin up to which a gap counts as closed in tangents.
+  static constexpr double verge = 1e-8;
+
   /// Calls `add(nodes, block)` for every active pair with its Hessian block of size dim·n_nodes, node-major.
   /// Pairs on the very verge of contact count as active here, so that bodies laid exactly upon each other
   /// hold each other.
@@ -155,6 +158,12 @@ public:
 
   /// The point of a pair, without a slip.
   LinearPoint<dim> make_linear_point(const NearPair &near) const;
+
+  /// ∇∇depth of the obstacle of a pair, at its point [1/m].
+  const SpatialTensor<dim> &obstacle_hessian(const NearPair &near) const
+  {
+    return obstacle_hessians[near.index - body_feet.size()];
+  }
 
   /// Whether depths are linear: from linearize() to the next evaluation.
   bool is_linear() const { return !start_depths.empty(); }

@@ -21,15 +21,22 @@ struct CoulombLaw
   double stiffness = 0.;   ///< k_T > 0 [Pa/m]
 
   /// Largest elastic slip under the pressure p ≥ 0, μp/k_T [m].
-  double limit(double pressure) const { return coefficient * pressure / stiffness; }
+  template <typename Number>
+  Number limit(const Number &pressure) const
+  {
+    return coefficient / stiffness * pressure;
+  }
 
   /// What is elastic of a trial slip that all were elastic: all of it (stick), or as much as the limit in its
   /// direction, the rest having slid.
-  template <int dim>
-  SpatialVector<dim> find_elastic_slip(const SpatialVector<dim> &trial, double pressure) const
+  template <typename Vector>
+  Vector find_elastic_slip(const Vector &trial, const typename Vector::Scalar &pressure) const
   {
-    const double length = trial.norm(), longest = limit(pressure);
-    return length <= longest ? trial : SpatialVector<dim>(longest / length * trial);
+    const typename Vector::Scalar length = trial.norm(), longest = limit(pressure);
+    if (length <= longest)
+      return trial;
+    const typename Vector::Scalar share = longest / length;
+    return share * trial;
   }
 
   /// Derivatives of find_elastic_slip(); on the edge of the cone those of stick.

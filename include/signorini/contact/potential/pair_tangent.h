@@ -10,9 +10,8 @@ namespace signorini::contact
 /// Hessian of A ½ k (d + o)² with the offset o of the pair, with respect to the nodes of the stencil,
 /// node-major. Without an offset it is that of A ½ k |x − y(ξ)|² at its minimum over ξ:
 ///
-/// With F(x, ξ) = ½ |g|², g = Σ_a B_a(ξ) x_a and g,α = −τ_α the Hessian of the minimum is
-///   F_xx − F_xξ F_ξξ⁻¹ F_ξx,  F_xx = Bᵀ B ⊗ I,  F_xξα = Bᵀ g,α + B,αᵀ g,  F_ξαβ = τ_α·τ_β − g·y,αβ
-/// over the directions in which the foot may slide; with one it is ∇d∇dᵀ + (d + o)/d (that − ∇d∇dᵀ).
+/// With F(x, ξ) = ½ |g|² of FootSlide the Hessian of the minimum is F_xx − F_xξ F_ξξ⁻¹ F_ξx, F_xx = Bᵀ B ⊗ I;
+/// with one it is ∇d∇dᵀ + (d + o)/d (that − ∇d∇dᵀ).
 /// `target` are the nodes of the target facet at the last evaluation. Overwrites `block`.
 template <int dim>
 void compute_body_tangent(const ContactPair<dim> &pair, const PairFoot<dim> &foot,
