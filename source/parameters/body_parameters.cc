@@ -42,10 +42,10 @@ void declare_placement(Declarations &declarations, const DeclarationScope &scope
 void declare_material(Declarations &declarations, const DeclarationScope &scope, const std::string &path)
 {
   SubsectionDeclaration material(declarations, path, "The material of the body; plane strain in 2-D.");
-  material.add(
-      "Model", one_of(names_in(models())), "linear elastic", "",
-      "Small strain; compressible finite strain; or finite strain that stays beyond the yield stress of von "
-      "Mises. A body that rotates needs one of the latter two.");
+  material.add("Model", one_of(names_in(models())), "linear elastic", "",
+               "Small strain; compressible finite strain; or finite strain of which a part stays, once von "
+               "Mises' stress has "
+               "reached a yield stress. A body that rotates needs one of the latter two.");
   material.add_required("Young's modulus", positive_number(), "Pa", "Stiffness in uniaxial tension.");
   material.add_required("Poisson's ratio", number_between(-1., 0.5), "", "Transverse contraction.");
   material.add("Density", positive_number(), "", "kg/m³",

@@ -29,7 +29,7 @@ struct Return
   double increment;          ///< Δα
   double share = 1.;         ///< of e that is left after yielding
 
-  /// Kirchhoff's stress.
+  /// The deviator of Kirchhoff's stress.
   Eigen::Matrix3d stress(double shear_modulus) const
   {
     return 2. * shear_modulus * share * axes * strain.asDiagonal() * axes.transpose();
@@ -74,8 +74,10 @@ double logarithmic_slope(double x)
 {
   return x == 0. ? 1. : std::log1p(x) / x;
 }
-/// What Kirchhoff's stress changes by under a velocity gradient, both along the axes. Where two principal
-/// stretches agree, so do the principal stresses: the quotient of their differences has a limit.
+
+/// What the deviator of Kirchhoff's stress changes by under a velocity gradient, both along the axes. Where
+/// two principal stretches agree, so do the principal stresses: the quotient of their differences has a
+/// limit.
 template <int dim>
 Eigen::Matrix3d change_of_stress(const J2Plastic<dim> &law, const Return &here,
                                  const Eigen::Matrix3d &velocity)
