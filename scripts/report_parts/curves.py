@@ -49,7 +49,7 @@ def energy_ledger(run):
     table = run.statistics
     progress = axis_of(table)
     parts = [name for name in ("kinetic energy", "elastic energy", "contact energy", "dissipated since the start",
-                               "rubbed off since the start")
+                               "rubbed off since the start", "plastic work since the start")
              if table.has_values(name) and any(finite(table[name]))]
     if not parts or not progress:
         return None

@@ -8,6 +8,7 @@
 
 #include <cmath>
 #include <fstream>
+#include <optional>
 #include <unordered_map>
 
 namespace signorini
@@ -61,12 +62,15 @@ using CellData = std::vector<std::pair<std::string, dealii::Vector<float>>>;
 /// A part's cell data by name, indexed by active cell as DataOut wants them.
 template <int dim>
 CellData make_cell_data(const MeshPart<dim> &part, const std::vector<Eigen::Matrix3d> &stresses,
+                        const std::optional<std::vector<double>> &plastic_strains,
                         const ErrorEstimate &estimate)
 {
   CellData data;
   for (const char *name : {"body", "error_indicator", "von_mises_stress", "stress_xx", "stress_yy",
                            "stress_zz", "stress_xy", "stress_yz", "stress_xz"})
     data.emplace_back(name, dealii::Vector<float>(part.triangulation().n_active_cells()));
+  if (plastic_strains)
+    data.emplace_back("equivalent_plastic_strain", data.front().second);
   unsigned int own_cell = part.first_cell;
   for (const auto &cell : part.dof_handler.active_cell_iterators())
     if (cell->is_locally_owned())
@@ -74,11 +78,13 @@ CellData make_cell_data(const MeshPart<dim> &part, const std::vector<Eigen::Matr
       const Eigen::Matrix3d &s = stresses[own_cell];
       const double error =
           std::sqrt(estimate.cell_discretization[own_cell] + estimate.cell_contact[own_cell]);
-      ++own_cell;
       const std::array<double, 9> values{{static_cast<double>(cell->material_id()), error, von_mises(s),
                                           s(0, 0), s(1, 1), s(2, 2), s(0, 1), s(1, 2), s(0, 2)}};
       for (unsigned int i = 0; i < values.size(); ++i)
         data[i].second[cell->active_cell_index()] = static_cast<float>(values[i]);
+      if (plastic_strains)
+        data.back().second[cell->active_cell_index()] = static_cast<float>((*plastic_strains)[own_cell]);
+      ++own_cell;
     }
   return data;
 }
@@ -201,6 +207,9 @@ void Fields<dim>::write(const State &state, const SceneForces<dim> &forces, cons
       dim, dealii::DataComponentInterpretation::component_is_part_of_vector);
   const auto names = [](const char *name) { return std::vector<std::string>(dim, name); };
   const std::vector<Eigen::Matrix3d> stresses = forces.elasticity->stresses();
+  std::optional<std::vector<double>> plastic_strains;
+  if (forces.elasticity->has_plasticity())
+    plastic_strains = forces.elasticity->plastic_strains();
   const NodalContact nodal = map ? project_contact(forces) : NodalContact();
   for (unsigned int p = 0; p < discretization->parts.size(); ++p)
   {
@@ -225,7 +234,7 @@ void Fields<dim>::write(const State &state, const SceneForces<dim> &forces, cons
       output.add_data_vector(contacts[p]->dof_handler, contact_data.second,
                              is_all_contact ? "gap" : "obstacle_gap");
     }
-    const CellData cell_data = make_cell_data(part, stresses, estimate);
+    const CellData cell_data = make_cell_data(part, stresses, plastic_strains, estimate);
     for (const auto &[name, values] : cell_data)
       output.add_data_vector(values, name, dealii::DataOut<dim>::type_cell_data);
     output.build_patches(part.mapping(), part.element.degree);

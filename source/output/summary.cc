@@ -113,13 +113,17 @@ Json describe_energy(const Results<dim> &results)
 {
   const EnergyLedger &energy = results.energy;
   if (!results.has_ledger)
-    return {{"elastic", energy.elastic}, {"contact", energy.contact}, {"rubbed_off", energy.rubbed_off}};
+    return {{"elastic", energy.elastic},
+            {"contact", energy.contact},
+            {"plastic_work", energy.plastic_work},
+            {"rubbed_off", energy.rubbed_off}};
   return {{"kinetic", energy.kinetic},
           {"elastic", energy.elastic},
           {"contact", energy.contact},
           {"dissipated", energy.dissipated},
           {"rubbed_off", energy.rubbed_off},
           {"dissipated_by_viscosity", energy.dissipated_by_viscosity},
+          {"plastic_work", energy.plastic_work},
           {"work", energy.work_of_loads + energy.work_of_supports},
           {"work_of_obstacles", energy.work_of_obstacles},
           {"contact_renewals", energy.contact_renewals},

@@ -20,7 +20,8 @@ const NameTable<MaterialParameters::Model> &models()
 {
   static const NameTable<MaterialParameters::Model> table{
       {"linear elastic", MaterialParameters::Model::linear_elastic},
-      {"neo-Hookean", MaterialParameters::Model::neo_hookean}};
+      {"neo-Hookean", MaterialParameters::Model::neo_hookean},
+      {"J2 plastic", MaterialParameters::Model::plastic}};
   return table;
 }
 
@@ -38,11 +39,13 @@ void declare_placement(Declarations &declarations, const DeclarationScope &scope
   placement.add("Scale", positive_length(), "1", "", "Factor of all lengths of the mesh.");
 }
 
-void declare_material(Declarations &declarations, const std::string &path)
+void declare_material(Declarations &declarations, const DeclarationScope &scope, const std::string &path)
 {
   SubsectionDeclaration material(declarations, path, "The material of the body; plane strain in 2-D.");
   material.add("Model", one_of(names_in(models())), "linear elastic", "",
-               "Small strain, or compressible finite strain; a body that rotates needs the latter.");
+               "Small strain; compressible finite strain; or finite strain of which a part stays, once von "
+               "Mises' stress has "
+               "reached a yield stress. A body that rotates needs one of the latter two.");
   material.add_required("Young's modulus", positive_number(), "Pa", "Stiffness in uniaxial tension.");
   material.add_required("Poisson's ratio", number_between(-1., 0.5), "", "Transverse contraction.");
   material.add("Density", positive_number(), "", "kg/m³",
@@ -51,6 +54,13 @@ void declare_material(Declarations &declarations, const std::string &path)
       "Viscosity", positive_number(), "", "Pa s",
       "η: resistance 2η to the rate of the strain's deviator, beside the elastic stress (Kelvin-Voigt); "
       "absent: none; explicit runs only.");
+  if (scope.chosen(path, "Model", "J2 plastic", "linear elastic"))
+  {
+    material.add_required("Yield stress", positive_number(), "Pa",
+                          "J2 plastic: stress in uniaxial tension (von Mises) at which it begins to yield.");
+    material.add("Hardening modulus", number_from_up_to(0., 1e30), "0", "Pa",
+                 "J2 plastic: by how much the yield stress grows with the equivalent plastic strain.");
+  }
 }
 
 void declare_motion(Declarations &declarations, const DeclarationScope &scope, const std::string &path)
@@ -121,6 +131,11 @@ MaterialParameters read_material(const SectionReader &section)
     material.density = section.number("Density");
   if (section.given("Viscosity"))
     material.viscosity = section.number("Viscosity");
+  if (material.model == MaterialParameters::Model::plastic)
+  {
+    material.yield_stress = section.number("Yield stress");
+    material.hardening_modulus = section.number("Hardening modulus");
+  }
   return material;
 }
 
@@ -249,7 +264,7 @@ void declare_body(Declarations &declarations, const DeclarationScope &scope, con
   declare_mesh(declarations, scope, path + "/Mesh");
   if (scope.includes(path + "/Placement"))
     declare_placement(declarations, scope, path + "/Placement");
-  declare_material(declarations, path + "/Material");
+  declare_material(declarations, scope, path + "/Material");
   if (scope.includes(path + "/Initial motion"))
     declare_motion(declarations, scope, path + "/Initial motion");
   for (const std::string &support : boundary_subsections(scope, path, "Support "))

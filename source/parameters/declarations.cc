@@ -158,7 +158,7 @@ void check_required(const ParameterText &text, const Declaration &declaration)
 /// The choice that decides which entries belong to a subsection.
 std::string deciding_choice(const ParameterText &text, const Declarations &in_use, const std::string &path)
 {
-  for (const std::string key : {"Shape", "Case"})
+  for (const std::string key : {"Shape", "Case", "Model"})
     if (const Declaration *const declaration = in_use.find(path, key))
     {
       std::string choice = fmt::format("{} = {}", key, text.value(path, key, declaration->default_value));

@@ -155,6 +155,22 @@ void check_implicit_contact(const ParameterText &text, const Parameters &paramet
          text.where("Contact", "Potential"));
 }
 
+/// What does not know bodies that yield: their points remember, and stay with the mesh they are on.
+void check_plastic(const ParameterText &text, const Parameters &parameters)
+{
+  for (const BodyParameters &body : parameters.bodies)
+    for (const std::string path : {"Implicit", "Adaptivity", "Exact solution"})
+      if (body.material.model == MaterialParameters::Model::plastic && text.find_subsection(path) != nullptr)
+        throw InputError(Complaint(fmt::format("'Model = J2 plastic' contradicts '{}': {}", path,
+                                               path == "Exact solution" ? "all of them are of elastic bodies"
+                                                                        : "they do not work together yet"))
+                             .at(text.where("Body " + body.name + "/Material", "Model"))
+                             .found(fmt::format("'{}' stands at {}", path, text.where(path)))
+                             .advise(path == "Implicit"
+                                         ? "run 'Explicit' or 'Quasi-static', or set Model = neo-Hookean"
+                                         : "remove the subsection, or set Model = neo-Hookean"));
+}
+
 void check_contact_error(const ParameterText &text, const Parameters &parameters)
 {
   if (parameters.contact && parameters.contact->correction && !parameters.contact->penalty_factor)
@@ -238,6 +254,7 @@ void check_together(const ParameterText &text, const Parameters &parameters)
   else
     check_equilibrium_only(text, parameters);
   check_implicit_contact(text, parameters);
+  check_plastic(text, parameters);
   check_contact_error(text, parameters);
   check_degree_of_potential(text, parameters);
   check_adaptable(text, parameters);

@@ -33,7 +33,7 @@ double CellKernel<dim, Law>::energy(const CellGeometry &cell, const double *u)
   ShapeResponse<dim> response;
   for (unsigned int q = 0; q < cell.n_points; ++q)
   {
-    law.shape(gradients[q], Order::first, response);
+    law_at(cell, q).shape(gradients[q], Order::first, response);
     energy += cell.weights[q] * (response.energy + volumes[q].energy);
   }
   return energy;
@@ -46,7 +46,7 @@ void CellKernel<dim, Law>::add_force(const CellGeometry &cell, const double *u, 
   ShapeResponse<dim> response;
   for (unsigned int q = 0; q < cell.n_points; ++q)
   {
-    law.shape(gradients[q], Order::first, response);
+    law_at(cell, q).shape(gradients[q], Order::first, response);
     double stress[dim * dim];
     for (int i = 0; i < dim * dim; ++i)
       stress[i] =
@@ -69,7 +69,7 @@ void CellKernel<dim, Law>::compute_tangent(const CellGeometry &cell, const doubl
   ShapeResponse<dim> response;
   for (unsigned int q = 0; q < cell.n_points; ++q)
   {
-    law.shape(gradients[q], Order::second, response);
+    law_at(cell, q).shape(gradients[q], Order::second, response);
     Eigen::Matrix<double, dim * dim, dim *dim> A =
         response.tangent + volumes[q].pressure * volume_strains[q].hessian;
     if (!uses_mean_volume)
@@ -121,11 +121,13 @@ void CellKernel<dim, Law>::compute_stresses(const CellGeometry &cell, const doub
 {
   evaluate_volume(cell, u, Order::first);
   for (unsigned int q = 0; q < cell.n_points; ++q)
-    stresses[q] = law.cauchy_stress(gradients[q], volumes[q].pressure);
+    stresses[q] = law_at(cell, q).cauchy_stress(gradients[q], volumes[q].pressure);
 }
 
 template class CellKernel<2, LinearElastic<2>>;
 template class CellKernel<3, LinearElastic<3>>;
 template class CellKernel<2, NeoHookean<2>>;
 template class CellKernel<3, NeoHookean<3>>;
+template class CellKernel<2, J2Plastic<2>>;
+template class CellKernel<3, J2Plastic<3>>;
 } // namespace signorini

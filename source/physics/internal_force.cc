@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <type_traits>
 
 namespace signorini
 {
@@ -21,9 +22,27 @@ InternalForce<dim>::InternalForce(const std::vector<MaterialParameters> &materia
     moduli.push_back(bulk_modulus + 4. / 3. * shear_modulus);
     if (material.model == MaterialParameters::Model::linear_elastic)
       kernels.emplace_back(CellKernel<dim, LinearElastic<dim>>({shear_modulus, bulk_modulus}, degree));
-    else
+    else if (material.model == MaterialParameters::Model::neo_hookean)
       kernels.emplace_back(CellKernel<dim, NeoHookean<dim>>({shear_modulus, bulk_modulus}, degree));
+    else
+      kernels.emplace_back(PlasticKernel(
+          {shear_modulus, bulk_modulus, material.yield_stress, material.hardening_modulus}, degree));
   }
+  if (std::any_of(kernels.begin(), kernels.end(),
+                  [](const Kernel &kernel) { return std::holds_alternative<PlasticKernel>(kernel); }))
+    make_plastic_states();
+}
+
+template <int dim>
+void InternalForce<dim>::make_plastic_states()
+{
+  const CellTable<dim> &cells = discretization->cells;
+  first_plastic_states.push_back(0);
+  for (unsigned int cell = 0; cell < cells.n_cells; ++cell)
+    first_plastic_states.push_back(
+        first_plastic_states.back() +
+        (std::holds_alternative<PlasticKernel>(kernels[cells.bodies[cell]]) ? cells.n_points(cell) : 0));
+  plastic_states.resize(first_plastic_states.back());
 }
 
 template <int dim>
@@ -58,7 +77,10 @@ void InternalForce<dim>::for_each_cell(const Action &action) const
             u.resize(cells.n_cell_dofs(cell));
             for (unsigned int i = 0; i < u.size(); ++i)
               u[i] = displacement->local_element(dofs[i]);
-            action(kernel, cell, geometry_of(cells, cell), u.data());
+            CellGeometry geometry = geometry_of(cells, cell);
+            if constexpr (std::is_same_v<decltype(kernel), PlasticKernel &>)
+              geometry.states = &plastic_states[first_plastic_states[cell]];
+            action(kernel, cell, geometry, u.data());
           }
         },
         kernels[body]);
@@ -171,7 +193,51 @@ bool InternalForce<dim>::is_nonlinear() const
 {
   return std::any_of(kernels.begin(), kernels.end(),
                      [](const Kernel &kernel)
-                     { return std::holds_alternative<CellKernel<dim, NeoHookean<dim>>>(kernel); });
+                     { return !std::holds_alternative<CellKernel<dim, LinearElastic<dim>>>(kernel); });
+}
+
+template <int dim>
+bool InternalForce<dim>::has_plasticity() const
+{
+  return !first_plastic_states.empty();
+}
+
+template <int dim>
+double InternalForce<dim>::commit()
+{
+  if (!has_plasticity())
+    return 0.;
+  double work = 0.;
+  for_each_cell(
+      [&](auto &kernel, unsigned int cell, const CellGeometry &geometry, const double *u)
+      {
+        if constexpr (std::is_same_v<decltype(kernel), PlasticKernel &>)
+          for (unsigned int q = 0; q < geometry.n_points; ++q)
+          {
+            const PlasticStep step =
+                kernel.law_at(geometry, q).yield(displacement_gradient<dim>(geometry, q, u));
+            plastic_states[first_plastic_states[cell] + q] = step.state;
+            work += geometry.weights[q] * step.work;
+          }
+      });
+  return dealii::Utilities::MPI::sum(work, discretization->communicator());
+}
+
+template <int dim>
+std::vector<double> InternalForce<dim>::plastic_strains() const
+{
+  const CellTable<dim> &cells = discretization->cells;
+  std::vector<double> means(cells.n_cells, 0.);
+  for_each_cell(
+      [&](auto &, unsigned int cell, const CellGeometry &geometry, const double *)
+      {
+        if (geometry.states == nullptr)
+          return;
+        for (unsigned int q = 0; q < geometry.n_points; ++q)
+          means[cell] += geometry.weights[q] * geometry.states[q].equivalent_strain;
+        means[cell] /= std::accumulate(geometry.weights, geometry.weights + geometry.n_points, 0.);
+      });
+  return means;
 }
 
 template <int dim>

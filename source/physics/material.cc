@@ -17,7 +17,13 @@ double trace(const Eigen::Matrix<double, dim, dim> &H)
   return H.trace();
 }
 
-/// det(I + H) − 1.
+template <int dim>
+Eigen::Matrix<double, dim, dim> to_matrix(const Eigen::Matrix<double, dim * dim, 1> &stress)
+{
+  return Eigen::Map<const Eigen::Matrix<double, dim, dim, Eigen::RowMajor>>(stress.data());
+}
+} // namespace
+
 template <int dim>
 double volume_strain_of(const Eigen::Matrix<double, dim, dim> &H)
 {
@@ -25,13 +31,6 @@ double volume_strain_of(const Eigen::Matrix<double, dim, dim> &H)
   const double second_invariant = 0.5 * (H.trace() * H.trace() - trace_of_square);
   return H.trace() + second_invariant + (dim == 3 ? H.determinant() : 0.);
 }
-
-template <int dim>
-Eigen::Matrix<double, dim, dim> to_matrix(const Eigen::Matrix<double, dim * dim, 1> &stress)
-{
-  return Eigen::Map<const Eigen::Matrix<double, dim, dim, Eigen::RowMajor>>(stress.data());
-}
-} // namespace
 
 template <int dim>
 void LinearElastic<dim>::shape(const Gradient &H, Order order, ShapeResponse<dim> &response) const
@@ -157,6 +156,8 @@ Eigen::Matrix3d NeoHookean<dim>::cauchy_stress(const Gradient &H, double pressur
   return stress;
 }
 
+template double volume_strain_of<2>(const Eigen::Matrix2d &);
+template double volume_strain_of<3>(const Eigen::Matrix3d &);
 template struct LinearElastic<2>;
 template struct LinearElastic<3>;
 template struct NeoHookean<2>;

@@ -82,6 +82,7 @@ void Simulation<dim>::list_parts()
                                                        : is_implicit ? "implicit"
                                                                      : "quasi-static");
   note(true, "elasticity", "");
+  note(forces.elasticity->has_plasticity(), "plasticity", "no Material has Model = J2 plastic");
   note(!forces.viscosities.empty(), "viscosity", "no Material has a Viscosity");
   note(!forces.loads.empty(), "loads", "no gravity and no subsection Load");
   note(!scene.supports.empty(), "supports", "no subsection Support");

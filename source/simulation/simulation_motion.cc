@@ -130,6 +130,8 @@ void Simulation<dim>::record_motion(const MotionSolver<dim> &solver, double time
     row.emplace_back(joules("energy lost by implicit contact since the start"), energy.contact_loss);
   if (!forces.viscosities.empty())
     row.emplace_back(joules("dissipated by viscosity since the start"), energy.dissipated_by_viscosity);
+  if (forces.elasticity->has_plasticity())
+    row.emplace_back(joules("plastic work since the start"), energy.plastic_work);
   if (!forces.moving_contacts.empty())
     row.emplace_back(joules("work of obstacles since the start"), energy.work_of_obstacles);
   if (parameters.adaptivity)

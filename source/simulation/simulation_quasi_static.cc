@@ -47,7 +47,11 @@ std::optional<Complaint> Simulation<dim>::solve_load_step(double time)
   if (!fault && correction && !parameters.adaptivity)
     fault = correct_contact(time);
   if (!fault)
+  {
+    forces.elasticity->update(state);
+    results.energy.plastic_work += forces.elasticity->commit();
     return {};
+  }
   state = before;
   results.correction_change = change_before;
   results.estimate = estimate_before;
@@ -161,6 +165,8 @@ void Simulation<dim>::record_quasi_static()
   const std::string joules = dim == 2 ? " [J/m]" : " [J]";
   Statistics::Row row{{"load parameter [s]", state.time},
                       {"elastic energy" + joules, results.energy.elastic}};
+  if (forces.elasticity->has_plasticity())
+    row.emplace_back("plastic work since the start" + joules, results.energy.plastic_work);
   if (results.has_contact)
   {
     row.emplace_back("contact energy" + joules, results.energy.contact);

@@ -239,6 +239,10 @@ void ExplicitSolver<dim>::book_step(const State &state, double time_step)
   if (!implicit_contact)
     for (const auto &friction : forces->frictions)
       energy_ledger.rubbed_off += friction->commit();
+  {
+    const auto section = run_time->enter("elasticity");
+    energy_ledger.plastic_work += forces->elasticity->commit();
+  }
   if (!forces->viscosities.empty())
     energy_ledger.dissipated_by_viscosity -=
         0.5 * (old_viscous_force * increment + viscous_force * increment);

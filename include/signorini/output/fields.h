@@ -22,7 +22,7 @@ namespace signorini
 /// negative where bodies overlap). Where bodies touch by the volume potential, which knows neither, these are
 /// obstacle_pressure and obstacle_gap, of contact with obstacles alone. Cell data: body, error_indicator (its
 /// share of the estimated error in the energy norm, both parts [J^½]), von_mises_stress and the components of
-/// the true stress [Pa].
+/// the true stress [Pa], and equivalent_plastic_strain in scenes where bodies may yield.
 template <int dim>
 class Fields
 {

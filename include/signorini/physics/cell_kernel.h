@@ -2,19 +2,21 @@
 #pragma once
 
 #include "signorini/discretization/cell_table.h"
-#include "signorini/physics/material.h"
+#include "signorini/physics/j2_plastic.h"
 
+#include <type_traits>
 #include <vector>
 
 namespace signorini
 {
-/// Geometry of one cell, as pointers into a CellTable.
+/// Geometry of one cell, as pointers into a CellTable, and its memory.
 struct CellGeometry
 {
   unsigned int n_nodes = 0;
   unsigned int n_points = 0;
-  const double *gradients = nullptr; ///< [point][node][direction]
-  const double *weights = nullptr;   ///< [point]
+  const double *gradients = nullptr;    ///< [point][node][direction]
+  const double *weights = nullptr;      ///< [point]
+  const PlasticState *states = nullptr; ///< [point] after the last accepted step; of J2Plastic only
 };
 
 template <int dim>
@@ -64,6 +66,19 @@ public:
 
   /// Overwrites `stresses` [point] with the true stress, with its out-of-plane component in 2-D [Pa].
   void compute_stresses(const CellGeometry &cell, const double *u, Eigen::Matrix3d *stresses);
+
+  /// The law as it is at a point: what remembers does so point by point.
+  decltype(auto) law_at(const CellGeometry &cell, unsigned int point) const
+  {
+    if constexpr (std::is_same_v<Law, J2Plastic<dim>>)
+    {
+      Law there = law;
+      there.state = &cell.states[point];
+      return there;
+    }
+    else
+      return (law);
+  }
 
   /// Volume mean of H + Hᵀ + HᵀH.
   Eigen::Matrix<double, dim, dim> mean_stretch(const CellGeometry &cell, const double *u) const;

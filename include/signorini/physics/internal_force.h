@@ -11,7 +11,8 @@
 
 namespace signorini
 {
-/// The elastic forces of all bodies.
+/// The elastic forces of all bodies. Where bodies yield they are those of the step since commit() was last
+/// called, whose energy contains its plastic work; nothing else changes what the points remember.
 template <int dim>
 class InternalForce : public ForceTerm
 {
@@ -38,6 +39,16 @@ public:
   /// True stress at every quadrature point of the own cells, [cell][point] [Pa].
   std::vector<Eigen::Matrix3d> point_stresses() const;
 
+  /// Makes the state of the last update() the one that further yielding starts from. Returns the work done in
+  /// yielding since the last call, of all ranks together [J; J/m in 2-D] (collective). Not with a step start.
+  double commit();
+
+  /// Whether any body may yield.
+  bool has_plasticity() const;
+
+  /// Mean equivalent plastic strain of every own cell; 0 in bodies that do not yield.
+  std::vector<double> plastic_strains() const;
+
   /// Whether the tangent depends on the deformation.
   bool is_nonlinear() const;
 
@@ -48,7 +59,11 @@ public:
   std::vector<Eigen::Matrix3d> stresses() const;
 
 private:
-  using Kernel = std::variant<CellKernel<dim, LinearElastic<dim>>, CellKernel<dim, NeoHookean<dim>>>;
+  using PlasticKernel = CellKernel<dim, J2Plastic<dim>>;
+  using Kernel =
+      std::variant<CellKernel<dim, LinearElastic<dim>>, CellKernel<dim, NeoHookean<dim>>, PlasticKernel>;
+
+  void make_plastic_states();
 
   /// Calls `action(kernel, cell, geometry, u)` for every own cell, u its nodal displacements.
   template <typename Action>
@@ -57,8 +72,11 @@ private:
   const Discretization<dim> *discretization;
   const Vector *displacement = nullptr; ///< that everything speaks of
   const Vector *step_start = nullptr;
-  Vector middle;                       ///< of the step
-  std::vector<double> moduli;          ///< of compression without widening, κ + 4μ/3, one a body [Pa]
-  mutable std::vector<Kernel> kernels; ///< one a body; mutable for their scratch memory
+  Vector middle;                            ///< of the step
+  std::vector<double> moduli;               ///< of compression without widening, κ + 4μ/3, one a body [Pa]
+  mutable std::vector<Kernel> kernels;      ///< one a body; mutable for their scratch memory
+  std::vector<PlasticState> plastic_states; ///< of all points of own cells of bodies that may yield
+  std::vector<std::size_t>
+      first_plastic_states; ///< [own cell] and the end; empty where no body of any rank may yield
 };
 } // namespace signorini

@@ -44,6 +44,10 @@ enum class Order
   second ///< tangents too
 };
 
+/// det(I + H) − 1.
+template <int dim>
+double volume_strain_of(const Eigen::Matrix<double, dim, dim> &H);
+
 /// Small strain: ψ_shape = μ |dev ε|², e = tr ε, U = κ/2 e².
 template <int dim>
 struct LinearElastic

@@ -17,10 +17,12 @@ namespace
 namespace files = std::filesystem;
 
 /// What is written of two bodies on a floor whose contact with each other is that of surfaces or of volumes.
-std::string write_fields(bool is_by_volumes)
+std::string write_fields(bool is_by_volumes, Model model = Model::neo_hookean)
 {
-  BuiltScene<2> built(make_overlapping_bodies<2>(), 1,
-                      [](Parameters &p) { p.obstacles = {make_floor<2>(.01)}; });
+  std::vector<BodyParameters> bodies = make_overlapping_bodies<2>();
+  bodies[0].material.model = model;
+  bodies[0].material.yield_stress = 1.;
+  BuiltScene<2> built(bodies, 1, [](Parameters &p) { p.obstacles = {make_floor<2>(.01)}; });
   built.add_contact(make_settings(contact::Integration::face_quadrature));
   const VolumeMap<2> volume_map(built.scene, built.discretization);
   if (is_by_volumes)
@@ -47,12 +49,21 @@ std::string write_fields(bool is_by_volumes)
   return content.str();
 }
 
+bool has(const std::string &content, const std::string &field)
+{
+  return content.find("Name=\"" + field + "\"") != std::string::npos;
+}
+
+TEST(Fields, ShowPlasticStrainWhereABodyMayYield)
+{
+  EXPECT_TRUE(has(write_fields(false, Model::plastic), "equivalent_plastic_strain"));
+  EXPECT_FALSE(has(write_fields(false), "equivalent_plastic_strain"));
+}
+
 /// The volume potential knows no pressure: one that is 0 between the bodies would be wrong.
 TEST(Fields, NamePressuresAfterTheContactTheyAreOf)
 {
   const std::string of_surfaces = write_fields(false), of_volumes = write_fields(true);
-  const auto has = [](const std::string &content, const std::string &field)
-  { return content.find("Name=\"" + field + "\"") != std::string::npos; };
   for (const std::string field : {"contact_pressure", "gap"})
   {
     EXPECT_TRUE(has(of_surfaces, field));

@@ -100,6 +100,28 @@ TYPED_TEST(Explicit, LedgerDriftIsSecondOrderInTheStep)
   EXPECT_LT(drift[0] / drift[1], 4.6);
 }
 
+TYPED_TEST(Explicit, LedgerClosesWithTheStepWhereABodyYields)
+{
+  constexpr int dim = TypeParam::dim;
+  std::array<double, 2> drift;
+  for (unsigned int halving = 0; halving < 2; ++halving)
+  {
+    BodyParameters cube = make_graded_cube();
+    cube.material.model = Model::plastic;
+    cube.material.yield_stress = 10.;
+    cube.material.hardening_modulus = 100.;
+    BuiltScene<dim> built({cube}, TypeParam::degree);
+    built.state.velocity = built.random_vector(.5);
+    Run<dim> run(built);
+    drift[halving] = run.advance(100 << halving, run.solver.stable_step() / (5 << halving));
+    EXPECT_GT(run.solver.energy().plastic_work, .1 * run.solver.energy().largest);
+    EXPECT_LT(run.solver.momentum().linear_drift(), 1e-13);
+    EXPECT_LT(run.solver.momentum().angular_drift(), 1e-13);
+  }
+  EXPECT_LT(drift[1], .005);
+  EXPECT_GT(drift[0] / drift[1], 1.8);
+}
+
 TYPED_TEST(Explicit, LedgerOfContactOnAFloorClosesToSecondOrder)
 {
   constexpr int dim = TypeParam::dim;
