@@ -15,6 +15,27 @@ namespace
 {
 /// Share of the skin up to which a gap counts as closed in the tangent.
 constexpr double verge = 1e-8;
+
+/// Adds up the rows and the columns of nodes that are there twice, as where two facets of one body share
+/// them.
+template <int dim>
+void merge_nodes(std::vector<unsigned int> &nodes, Eigen::MatrixXd &block)
+{
+  for (std::size_t b = nodes.size(); b-- > 1;)
+  {
+    const auto a = std::find(nodes.begin(), nodes.begin() + b, nodes[b]) - nodes.begin();
+    if (static_cast<std::size_t>(a) == b)
+      continue;
+    const auto last = static_cast<Eigen::Index>(nodes.size()) - 1, double_node = static_cast<Eigen::Index>(b);
+    block.template middleRows<dim>(dim * a) += block.template middleRows<dim>(dim * double_node);
+    block.template middleCols<dim>(dim * a) += block.template middleCols<dim>(dim * double_node);
+    block.template middleRows<dim>(dim * double_node) = block.template middleRows<dim>(dim * last).eval();
+    block.template middleCols<dim>(dim * double_node) = block.template middleCols<dim>(dim * last).eval();
+    block.conservativeResize(dim * last, dim * last);
+    nodes[b] = nodes.back();
+    nodes.pop_back();
+  }
+}
 } // namespace
 
 template <int dim>
@@ -258,6 +279,8 @@ void ContactPotential<dim>::for_each_tangent(
         else
           compute_obstacle_tangent(near.pair, near.foot, near.stencil,
                                    obstacle_hessians[near.index - body_feet.size()], block);
+        if (near.target != nullptr && near.target->body == near.contactor.body)
+          merge_nodes<dim>(nodes, block);
         add(nodes, block);
       });
 }
