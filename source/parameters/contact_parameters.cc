@@ -52,6 +52,8 @@ void check_volume_potential(const ParameterText &text, const SectionReader &sect
     refuse("friction: an overlap has no points that could stick");
   if (contact.correction)
     refuse("correction: it knows no pressures to start from");
+  if (!contact.self_contact.empty())
+    refuse("self-contact: the elements of a body overlap nowhere but at their faces");
   for (const char *key : {"Integration", "Quadrature points"})
     if (!has_obstacles && text.find("Contact", key) != nullptr)
       refuse(fmt::format("'{}': it integrates overlaps exactly", key));
@@ -109,6 +111,19 @@ std::vector<std::pair<std::string, std::string>> read_pairs(const SectionReader 
     pairs.emplace_back(names[0], names[1]);
   }
   return pairs;
+}
+
+std::vector<std::string> read_self_contact(const SectionReader &section,
+                                           const std::vector<std::string> &bodies)
+{
+  const std::vector<std::string> names = split(section.value("Self-contact"), ',');
+  for (const std::string &name : names)
+    if (!is_in(name, bodies))
+      throw InputError(section.complain("Self-contact", fmt::format("there is no body '{}'", name))
+                           .expected("some of " + join(bodies, ", "))
+                           .did_you_mean(nearest_name(name, bodies))
+                           .advise("correct the name or remove it"));
+  return names;
 }
 } // namespace
 
@@ -234,6 +249,9 @@ void declare_contact(Declarations &declarations, const DeclarationScope &scope)
               "Quadrature points in each direction of a face.");
   contact.add("Excluded pairs", any_text(), "", "",
               "Pairs of bodies, or of a body and an obstacle, that ignore each other: a:b, c:d.");
+  contact.add("Self-contact", any_text(), "", "",
+              "Bodies that may touch themselves, such as those that fold or have a slit: a, b. Not with the "
+              "volume potential.");
   contact.add(
       "Maximum penetration", number_above(0.), "0.5", "",
       "In sizes of an element: a run in which bodies sink deeper into each other stops, as they could "
@@ -277,6 +295,7 @@ ContactParameters read_contact(const ParameterText &text, const Declarations &in
   contact.integration = section.choice("Integration", integrations());
   contact.quadrature_points = section.integer("Quadrature points");
   contact.excluded_pairs = read_pairs(section, bodies, obstacles);
+  contact.self_contact = read_self_contact(section, bodies);
   contact.max_penetration = section.number("Maximum penetration");
   contact.allow_initial_overlap = section.boolean("Allow initial overlap");
   if (text.find_subsection("Contact/Damping") != nullptr)
@@ -300,6 +319,8 @@ ContactParameters read_contact(const ParameterText &text, const Declarations &in
 
 bool is_pair_excluded(const ContactParameters &contact, const std::string &one, const std::string &other)
 {
+  if (one == other)
+    return !is_in(one, contact.self_contact);
   return std::any_of(contact.excluded_pairs.begin(), contact.excluded_pairs.end(),
                      [&](const auto &pair)
                      { return pair == std::pair(one, other) || pair == std::pair(other, one); });

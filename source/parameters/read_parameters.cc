@@ -71,14 +71,15 @@ void check_subsections(const ParameterText &text, const SectionReader &top,
   if (!obstacles.empty())
     require(text, "Contact", "there are obstacles, which no body can feel without contact",
             top.complain("Obstacles", "").where);
-  else if (bodies.size() == 1 && text.find_subsection("Contact") != nullptr)
+  else if (bodies.size() == 1 && text.find_subsection("Contact") != nullptr &&
+           text.find("Contact", "Self-contact") == nullptr)
     throw InputError(
         Complaint("'Contact' has nothing to do: there is one body and no obstacle")
             .at(text.where("Contact"))
             .found(fmt::format("Bodies = {}", bodies.front()))
             .expected("at least two bodies, or an obstacle")
             .advise("add a name to 'Obstacles' with 'subsection Obstacle NAME', or one to 'Bodies' "
-                    "with 'subsection Body NAME', or remove 'Contact'"));
+                    "with 'subsection Body NAME', or set 'Self-contact', or remove 'Contact'"));
 }
 
 /// Things that make no sense without inertia.

@@ -98,8 +98,7 @@ InitialOverlap<dim> OverlapSearch<dim>::find_at(unsigned int body, const Spatial
     if (const double depth = scene.obstacles[i]->find_foot(point).depth;
         !is_excluded(body, scene.n_bodies() + i) && depth > (deepest ? deepest->depth : 0.))
       deepest = {body, scene.n_bodies() + i, depth, 0., point};
-  AssertThrow(deepest, dealii::ExcInternalError());
-  return *deepest;
+  return deepest.value_or(InitialOverlap<dim>{body, body, 0., 0., point});
 }
 
 template <int dim>

@@ -89,6 +89,8 @@ void Simulation<dim>::list_parts()
   note(surface_map != nullptr, "contact surface", "no subsection Contact");
   note(scene.n_bodies() > 1 && surface_map, "contact of bodies",
        surface_map ? "one body only" : "no subsection Contact");
+  note(parameters.contact && !parameters.contact->self_contact.empty(), "self-contact",
+       surface_map ? "Contact/Self-contact names no body" : "no subsection Contact");
   note(volume_map != nullptr, "volume potential",
        scene.n_bodies() > 1 ? "Contact/Potential is not volume" : "one body only");
   note(!scene.obstacles.empty(), "contact with obstacles", "no obstacle");

@@ -41,6 +41,8 @@ contact::PotentialSettings make_settings(const Parameters &parameters, double pe
         std::find_if(list.begin(), list.end(), [&](const auto &entry) { return entry.name == name; }) -
         list.begin());
   };
+  for (const std::string &name : contact.self_contact)
+    settings.self_contact.push_back(find(parameters.bodies, name));
   const unsigned int n_bodies = parameters.bodies.size();
   for (const auto &[one, other] : contact.excluded_pairs)
   {
@@ -81,13 +83,14 @@ void Simulation<dim>::build_contact()
     forces.volume_contacts.push_back(std::make_shared<VolumeContactForce<dim>>(
         "contact of bodies", *volume_map, volume_settings, communicator));
   }
-  else if (scene.n_bodies() > 1)
+  else if (scene.n_bodies() > 1 || !settings.self_contact.empty())
     forces.surface_contacts.push_back(std::make_shared<ContactForce<dim>>(
         "contact of bodies", false, *surface_map, typename contact::ContactPotential<dim>::Obstacles(),
         settings, communicator));
   if (!scene.obstacles.empty())
   {
     contact::PotentialSettings obstacles_only = settings;
+    obstacles_only.self_contact.clear();
     for (unsigned int one = 0; one < scene.n_bodies(); ++one)
       for (unsigned int other = 0; other < one; ++other)
         obstacles_only.excluded_body_pairs.emplace_back(one, other);
@@ -243,23 +246,28 @@ void Simulation<dim>::check_initial_overlap()
   {
     overlap = search.find_at(measures.deepest_body, measures.deepest_position);
     overlap->thickness = measures.deepest_thickness;
+    if (overlap->is_of_itself())
+      overlap->depth = measures.max_penetration_over_thickness * overlap->thickness;
   }
   if (!overlap)
     return;
   const std::string depth =
       fmt::format("{:.6g} m ({:.3g} elements)", overlap->depth, overlap->depth / overlap->thickness);
   const std::string where = format_point<dim>(overlap->point);
+  const std::string body = search.name(overlap->body);
+  const std::string other = overlap->is_of_itself() ? "itself" : search.name(overlap->other);
   if (!parameters.contact->allow_initial_overlap)
-    throw InputError(Complaint(fmt::format("{} overlaps {} before the run begins", search.name(overlap->body),
-                                           search.name(overlap->other)))
-                         .at(text->where("Body " + scene.body_names[overlap->body]))
-                         .found(depth + " below its surface at " + where)
-                         .expected(fmt::format("at most {} elements", allowed))
-                         .advise(fmt::format(
-                             "shift {} by {}, exclude the pair, or set Contact/Allow initial overlap = true",
-                             search.name(overlap->body), format_point<dim>(search.find_shift(*overlap)))));
-  progress.say(fmt::format("Initial overlap: {} in {} by {} at {}; contact stores {:.6g} J",
-                           search.name(overlap->body), search.name(overlap->other), depth, where, energy));
+    throw InputError(
+        Complaint(fmt::format("{} overlaps {} before the run begins", body, other))
+            .at(text->where("Body " + scene.body_names[overlap->body]))
+            .found(depth + " below its surface at " + where)
+            .expected(fmt::format("at most {} elements", allowed))
+            .advise((overlap->is_of_itself() ? "correct its mesh, take it out of Contact/Self-contact"
+                                             : fmt::format("shift {} by {}, exclude the pair", body,
+                                                           format_point<dim>(search.find_shift(*overlap)))) +
+                    ", or set Contact/Allow initial overlap = true"));
+  progress.say(fmt::format("Initial overlap: {} in {} by {} at {}; contact stores {:.6g} J", body, other,
+                           depth, where, energy));
 }
 
 template <int dim>

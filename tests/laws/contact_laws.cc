@@ -17,7 +17,7 @@ std::vector<Case> make_cases()
   std::vector<Case> cases;
   for (int dim : {2, 3})
     for (unsigned int degree : {1, 2})
-      for (Target target : {Target::body, Target::plane, Target::sphere})
+      for (Target target : {Target::body, Target::itself, Target::plane, Target::sphere})
         for (Integration integration : {Integration::face_quadrature, Integration::face_segments})
           for (Multipliers multipliers : {Multipliers::none, Multipliers::given})
             cases.push_back({dim, degree, target, integration, multipliers});
@@ -27,7 +27,7 @@ std::vector<Case> make_cases()
     {
       cases.push_back({3, degree, target, integration, multipliers, triangles});
     };
-    for (Target target : {Target::body, Target::plane, Target::sphere})
+    for (Target target : {Target::body, Target::itself, Target::plane, Target::sphere})
       add(target, Integration::face_quadrature, Multipliers::given, Triangles::both);
     for (Triangles triangles : {Triangles::both, Triangles::upper, Triangles::lower})
       for (Integration integration : {Integration::face_quadrature, Integration::face_segments})
@@ -137,8 +137,10 @@ TEST_P(ContactLaws, ActionEqualsReaction)
         EXPECT_GT(norm<dim>(forces), 0.);
         EXPECT_LT(measure_imbalance<dim>(scene.positions, forces), 1e-13 * norm<dim>(forces) * 10.);
 
-        const auto resultants = potential.measure().resultants;
-        EXPECT_LT((resultants[0] + resultants[1]).norm(), 1e-13 * resultants[0].norm() * 10.);
+        SpatialVector<dim> sum = SpatialVector<dim>::Zero();
+        for (const SpatialVector<dim> &resultant : potential.measure().resultants)
+          sum += resultant;
+        EXPECT_LT(sum.norm(), 1e-13 * norm<dim>(forces) * 10.);
       });
 }
 
@@ -215,8 +217,8 @@ double integrate(const Function &f, double begin, double end, double tolerance)
 TEST_P(ContactLaws, ClosedLoopDoesNoWork)
 {
   const Case *c = std::get_if<Case>(&GetParam());
-  if (c != nullptr && c->dim == 3 && c->degree == 2 && c->target == Target::body &&
-      c->integration == Integration::face_segments)
+  if (c != nullptr && c->dim == 3 && c->degree == 2 && c->target != Target::plane &&
+      c->target != Target::sphere && c->integration == Integration::face_segments)
     GTEST_SKIP() << "passes, but takes a minute: its thousands of points cross thousands of kinks";
   if (c != nullptr && c->degree == 2 && c->target == Target::body &&
       (c->triangles == Triangles::both || c->triangles == Triangles::lower))

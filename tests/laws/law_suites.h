@@ -60,7 +60,7 @@ inline std::vector<Case> make_cases_of_points()
   std::vector<Case> cases;
   for (int dim : {2, 3})
     for (unsigned int degree : {1, 2})
-      for (Target target : {Target::body, Target::plane, Target::sphere})
+      for (Target target : {Target::body, Target::itself, Target::plane, Target::sphere})
         cases.push_back({dim, degree, target, contact::Integration::face_quadrature});
   for (Triangles triangles : {Triangles::both, Triangles::upper, Triangles::lower})
     for (unsigned int degree : {1, 2})

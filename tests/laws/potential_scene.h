@@ -14,6 +14,7 @@ namespace signorini::test
 enum class Target
 {
   body,
+  itself, ///< a part of the same body
   plane,
   sphere
 };
@@ -45,7 +46,7 @@ struct Case
 
 inline std::ostream &operator<<(std::ostream &out, const Case &c)
 {
-  const std::array<const char *, 3> targets{"Body", "Plane", "Sphere"};
+  const std::array<const char *, 4> targets{"Body", "Itself", "Plane", "Sphere"};
   const std::array<const char *, 4> triangles{"", "Triangles", "TrianglesAbove", "TrianglesBelow"};
   return out << "Dim" << c.dim << "Degree" << c.degree << targets[static_cast<std::size_t>(c.target)]
              << (c.integration == contact::Integration::face_quadrature ? "Quadrature" : "Segments")
@@ -53,7 +54,8 @@ inline std::ostream &operator<<(std::ostream &out, const Case &c)
              << triangles[static_cast<std::size_t>(c.triangles)];
 }
 
-/// A bent box pressed a little into another bent box of other mesh and material, or into an obstacle.
+/// A bent box pressed a little into another bent box of other mesh and material, or into an obstacle; or the
+/// two are ends of one body that were apart when it was undeformed, and whatever joins them is far away.
 template <int dim>
 struct PotentialScene
 {
@@ -66,11 +68,11 @@ struct PotentialScene
   typename contact::ContactPotential<dim>::Obstacles obstacles;
   contact::PotentialSettings settings;
   Target target;
-  unsigned int moving_body;
+  unsigned int first_moving_node; ///< those of the upper box
   NodalPressures<dim> multipliers;
 
   explicit PotentialScene(const Case &c, unsigned int n_faces = 2, double bend = .02)
-      : target(c.target), moving_body(0)
+      : target(c.target), first_moving_node(0)
   {
     BoxSurfaceBuilder<dim> builder;
     BoxBody<dim> lower;
@@ -79,10 +81,10 @@ struct PotentialScene
     const auto is_of_triangles = [&](Triangles side)
     { return c.triangles == Triangles::both || c.triangles == side; };
     lower.type = is_of_triangles(Triangles::lower) ? FacetType::triangle : FacetType::tensor_product;
-    if (c.target == Target::body)
+    if (is_between_bodies())
     {
       builder.add(lower);
-      moving_body = 1;
+      first_moving_node = builder.surface.n_nodes();
     }
     BoxBody<dim> upper = lower;
     upper.type = is_of_triangles(Triangles::upper) ? FacetType::triangle : FacetType::tensor_product;
@@ -95,6 +97,8 @@ struct PotentialScene
     surface = builder.surface;
     RandomVectors<dim> random(5);
     positions = shifted<dim>(surface.reference_positions, random.field(surface.n_nodes(), bend), 1.);
+    if (target == Target::itself)
+      become_one_body();
     move(SpatialTensor<dim>::Identity(), SpatialVector<dim>::Zero());
     settings.integration = c.integration;
     settings.damping_ratio = .3;
@@ -134,31 +138,26 @@ struct PotentialScene
     return potential;
   }
 
-  /// Moves every node of the moving body by `shift`.
+  /// Moves every node of the upper box by `shift`.
   Positions<dim> moved(const SpatialVector<dim> &shift) const
   {
     Positions<dim> x(positions);
-    std::vector<bool> is_moved(x.size(), false);
-    for (const auto &facet : surface.facets)
-      if (facet.body == moving_body)
-        for (unsigned int a = 0; a < facet.n_nodes(); ++a)
-          is_moved[facet.nodes[a]] = true;
-    for (std::size_t i = 0; i < x.size(); ++i)
-      if (is_moved[i])
-        x[i] += shift;
+    for (std::size_t i = first_moving_node; i < x.size(); ++i)
+      x[i] += shift;
     return x;
   }
 
   Positions<dim> zeros() const { return Positions<dim>(positions.size(), SpatialVector<dim>::Zero()); }
 
-  bool is_between_bodies() const { return target == Target::body; }
+  /// Whether what is below the box deforms, too.
+  bool is_between_bodies() const { return target == Target::body || target == Target::itself; }
 
   /// Whether pairs made anew leave the energy what it was.
   bool may_be_renewed() const { return settings.integration == contact::Integration::face_quadrature; }
 
   auto &parts() { return surface.facets; }
 
-  /// Leads the moving body round, by few points: each has its own kinks.
+  /// Leads the upper box round, by few points: each has its own kinks.
   Loop<dim> make_loop()
   {
     settings.n_quadrature_points = may_be_renewed() ? 2 : 1;
@@ -166,6 +165,17 @@ struct PotentialScene
     upwards[dim - 2] += .01;
     return {shifted<dim>(moved(.07 * SpatialVector<dim>::Unit(0)), positions, -1.),
             shifted<dim>(moved(upwards), positions, -1.)};
+  }
+
+private:
+  void become_one_body()
+  {
+    surface.n_bodies = 1;
+    for (Facet<dim> &facet : surface.facets)
+      facet.body = 0;
+    for (std::size_t i = first_moving_node; i < surface.n_nodes(); ++i)
+      surface.reference_positions[i][dim - 1] += .2;
+    settings.self_contact = {0};
   }
 };
 

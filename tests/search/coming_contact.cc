@@ -17,9 +17,9 @@ namespace
 {
 constexpr double margin = .3;
 
-bool every_pair(unsigned int, unsigned int)
+bool every_pair(unsigned int body, unsigned int other)
 {
-  return true;
+  return body != other;
 }
 
 /// Boxes that fly in all directions, each turning and trembling a little.

@@ -19,12 +19,12 @@ ObstacleParameters read_obstacle(const ParameterText &text, const Declarations &
 /// Declare `Contact`.
 void declare_contact(Declarations &declarations, const DeclarationScope &scope);
 
-/// Read and check it; excluded pairs must name one of `bodies` and one of `bodies` or `obstacles`. Throws
-/// InputError.
+/// Read and check it; excluded pairs must name one of `bodies` and one of `bodies` or `obstacles`,
+/// self-contact some of `bodies`. Throws InputError.
 ContactParameters read_contact(const ParameterText &text, const Declarations &in_use,
                                const std::vector<std::string> &bodies,
                                const std::vector<std::string> &obstacles);
 
-/// Whether these two, named in either order, never touch.
+/// Whether these two, named in either order, never touch: one and the same unless it has self-contact.
 bool is_pair_excluded(const ContactParameters &contact, const std::string &one, const std::string &other);
 } // namespace signorini

@@ -20,9 +20,11 @@ struct InitialOverlap
   double depth = 0.;      ///< of the point, below the surface of the other [m]
   double thickness = 0.;  ///< of the element below that surface; obstacles: of that below the body's [m]
   SpatialVector<dim> point = SpatialVector<dim>::Zero();
+
+  bool is_of_itself() const { return body == other; }
 };
 
-/// Looks for bodies in bodies at any depth, where contact sees only as deep as one element. Collective.
+/// Looks for bodies in other bodies at any depth, where contact sees only as deep as one element. Collective.
 template <int dim>
 class OverlapSearch
 {
@@ -36,7 +38,8 @@ public:
   /// elements, or the point of an obstacle in a body; on every rank the same.
   std::optional<InitialOverlap<dim>> find_gross(double allowed) const;
 
-  /// What a point of a body lies deepest in; it must lie in something.
+  /// What other body or obstacle a point of a body lies deepest in; if in none, the body itself, with depth
+  /// 0.
   InitialOverlap<dim> find_at(unsigned int body, const SpatialVector<dim> &point) const;
 
   /// body 'NAME' or obstacle 'NAME'.

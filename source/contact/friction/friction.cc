@@ -2,6 +2,7 @@
 #include "signorini/contact/friction/friction.h"
 
 #include "signorini/contact/friction/friction_tangent.h"
+#include "signorini/contact/potential/pair_tangent.h"
 #include "signorini/contact/search/nearest_points.h"
 
 #include <fmt/format.h>
@@ -311,6 +312,8 @@ void Friction<dim>::for_each_tangent(const std::function<void(const std::vector<
         else
           compute_obstacle_friction_tangent(point, find_shift(near.pair.target),
                                             potential.obstacle_hessian(near), block);
+        if (near.target != nullptr && near.target->body == near.contactor.body)
+          merge_nodes<dim>(nodes, block);
         add(nodes, block);
       });
 }

@@ -250,6 +250,8 @@ void ContactPotential<dim>::for_each_tangent(
                                gather_nodes(*near.target, evaluated_positions), block);
         else
           compute_obstacle_tangent(near.pair, near.foot, near.stencil, obstacle_hessian(near), block);
+        if (near.target != nullptr && near.target->body == near.contactor.body)
+          merge_nodes<dim>(nodes, block);
         add(nodes, block);
       });
 }

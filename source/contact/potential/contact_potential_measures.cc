@@ -81,6 +81,8 @@ ContactPotential<dim>::sum_by_pair(const std::function<SpatialVector<dim>(const 
                            const unsigned int body = near.contactor.body, other = near.pair.target;
                            if (near.target == nullptr)
                              add(forces.obstacles, body, other, force);
+                           else if (body == other)
+                             return; // what a body does to itself cancels
                            else if (body < other)
                              add(forces.bodies, body, other, force);
                            else

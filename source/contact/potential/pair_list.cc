@@ -86,8 +86,11 @@ std::vector<double> PairList<dim>::compute_reach() const
 template <int dim>
 NeighbourList<dim> PairList<dim>::make_neighbour_list() const
 {
-  const auto is_allowed = [excluded = settings_.excluded_body_pairs](unsigned int body, unsigned int other)
+  const auto is_allowed = [excluded = settings_.excluded_body_pairs,
+                           self = settings_.self_contact](unsigned int body, unsigned int other)
   {
+    if (body == other)
+      return std::find(self.begin(), self.end(), body) != self.end();
     return std::find(excluded.begin(), excluded.end(), std::pair(body, other)) == excluded.end() &&
            std::find(excluded.begin(), excluded.end(), std::pair(other, body)) == excluded.end();
   };

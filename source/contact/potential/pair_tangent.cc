@@ -3,6 +3,7 @@
 
 #include "signorini/contact/potential/foot_slide.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace signorini::contact
@@ -55,6 +56,25 @@ void compute_obstacle_tangent(const ContactPair<dim> &pair, const PairFoot<dim> 
   set_product_block<dim>(stencil, pair.area * pair.stiffness * hessian, block);
 }
 
+template <int dim>
+void merge_nodes(std::vector<unsigned int> &nodes, Eigen::MatrixXd &block)
+{
+  for (std::size_t b = nodes.size(); b-- > 1;)
+  {
+    const auto a = std::find(nodes.begin(), nodes.begin() + b, nodes[b]) - nodes.begin();
+    if (static_cast<std::size_t>(a) == b)
+      continue;
+    const auto last = static_cast<Eigen::Index>(nodes.size()) - 1, double_node = static_cast<Eigen::Index>(b);
+    block.template middleRows<dim>(dim * a) += block.template middleRows<dim>(dim * double_node);
+    block.template middleCols<dim>(dim * a) += block.template middleCols<dim>(dim * double_node);
+    block.template middleRows<dim>(dim * double_node) = block.template middleRows<dim>(dim * last).eval();
+    block.template middleCols<dim>(dim * double_node) = block.template middleCols<dim>(dim * last).eval();
+    block.conservativeResize(dim * last, dim * last);
+    nodes[b] = nodes.back();
+    nodes.pop_back();
+  }
+}
+
 template void compute_body_tangent(const ContactPair<2> &, const PairFoot<2> &, const PairStencil<2> &,
                                    const FacetNodes<2> &, Eigen::MatrixXd &);
 template void compute_body_tangent(const ContactPair<3> &, const PairFoot<3> &, const PairStencil<3> &,
@@ -63,4 +83,6 @@ template void compute_obstacle_tangent(const ContactPair<2> &, const PairFoot<2>
                                        const SpatialTensor<2> &, Eigen::MatrixXd &);
 template void compute_obstacle_tangent(const ContactPair<3> &, const PairFoot<3> &, const PairStencil<3> &,
                                        const SpatialTensor<3> &, Eigen::MatrixXd &);
+template void merge_nodes<2>(std::vector<unsigned int> &, Eigen::MatrixXd &);
+template void merge_nodes<3>(std::vector<unsigned int> &, Eigen::MatrixXd &);
 } // namespace signorini::contact

@@ -3,6 +3,7 @@
 
 #include "signorini/contact/geometry/closest_point.h"
 #include "signorini/contact/search/box_tree.h"
+#include "signorini/contact/search/untouchable_facets.h"
 
 #include <algorithm>
 
@@ -34,9 +35,10 @@ template <int dim>
 class ComingContactSearch
 {
 public:
-  ComingContactSearch(const ContactSurface<dim> &contact_surface, const StraightMotion<dim> &straight_motion)
-      : surface(contact_surface), motion(straight_motion), body_velocities(contact_surface.n_bodies),
-        facets_of_body(contact_surface.n_bodies)
+  ComingContactSearch(const ContactSurface<dim> &contact_surface, const StraightMotion<dim> &straight_motion,
+                      std::vector<std::vector<unsigned int>> untouchable_facets)
+      : surface(contact_surface), motion(straight_motion), untouchable(std::move(untouchable_facets)),
+        body_velocities(contact_surface.n_bodies), facets_of_body(contact_surface.n_bodies)
   {
     std::vector<BoundingBox<dim>> bodies(surface.n_bodies);
     std::vector<unsigned int> all_bodies;
@@ -55,17 +57,16 @@ public:
     body_tree = make_tree<dim>(bodies, all_bodies);
   }
 
-  /// Bodies that come as near to `body` as `margin`.
+  /// Bodies that come as near to `body` as `margin`, itself among them.
   std::vector<unsigned int> find_near_bodies(unsigned int body, double margin) const
   {
     std::vector<TreeEntry<dim>> found;
     body_tree.query(boost::geometry::index::intersects(make_tree_box<dim>(body_boxes[body], margin)),
                     std::back_inserter(found));
-    std::vector<unsigned int> others;
+    std::vector<unsigned int> bodies;
     for (const TreeEntry<dim> &entry : found)
-      if (entry.second != body)
-        others.push_back(entry.second);
-    return others;
+      bodies.push_back(entry.second);
+    return bodies;
   }
 
   /// Marks the owned facets of `body` that may meet `target`, seen by one who moves along with it.
@@ -116,6 +117,9 @@ private:
     for (const TreeEntry<dim> &entry : near)
     {
       const Facet<dim> &other = surface.facets[entry.second];
+      if (share_a_node(facet, other) ||
+          std::binary_search(untouchable[f].begin(), untouchable[f].end(), entry.second))
+        continue;
       const SpatialVector<dim> reference = mean_velocity(other, motion);
       const double reach = margin + motion.duration * (largest_speed(facet, motion, reference) +
                                                        largest_speed(other, motion, reference));
@@ -130,6 +134,7 @@ private:
 
   const ContactSurface<dim> &surface;
   const StraightMotion<dim> &motion;
+  std::vector<std::vector<unsigned int>> untouchable; ///< of its own body, one a facet
   std::vector<SpatialVector<dim>> body_velocities;
   std::vector<std::vector<unsigned int>> facets_of_body;
   std::vector<BoundingBox<dim>> body_boxes; ///< swept, for one at rest
@@ -152,7 +157,14 @@ find_coming_contact(const ContactSurface<dim> &surface, const StraightMotion<dim
                     const std::vector<double> &margins,
                     const std::function<bool(unsigned int, unsigned int)> &is_allowed_pair)
 {
-  const ComingContactSearch<dim> search(surface, motion);
+  // As wide as for facets of the file's mesh: those of a refined one are near each other along the surface.
+  std::vector<double> distances;
+  for (const double margin : margins)
+    distances.push_back(4. * margin);
+  const ComingContactSearch<dim> search(
+      surface, motion,
+      find_untouchable_facets<dim>(surface, distances,
+                                   [&](unsigned int body) { return is_allowed_pair(body, body); }));
   std::vector<bool> is_coming(surface.facets.size(), false);
   for (unsigned int body = 0; body < surface.n_bodies; ++body)
   {

@@ -3,6 +3,7 @@
 
 #include "signorini/contact/geometry/facet_shape.h"
 #include "signorini/contact/search/box_tree.h"
+#include "signorini/contact/search/untouchable_facets.h"
 
 #include <boost/iterator/function_output_iterator.hpp>
 
@@ -32,7 +33,7 @@ void append_near_boxes(const BoxTree<dim> &tree, const std::vector<BoundingBox<d
 }
 } // namespace
 
-/// The boxes of one configuration. A body's tree over its facets is grown only when another body comes near.
+/// The boxes of one configuration. A body's tree over its facets is grown only when something comes near.
 template <int dim>
 struct NeighbourList<dim>::Boxes
 {
@@ -72,6 +73,12 @@ NeighbourList<dim>::NeighbourList(const ContactSurface<dim> &contact_surface, st
     facets_of_body.at(surface.facets[f].body).push_back(f);
     largest_motion_factor = std::max(largest_motion_factor, lebesgue_constant(surface.facets[f]));
   }
+  // A wall must be squashed to less than half of its thickness before a point of one side sees the other.
+  std::vector<double> distances;
+  for (const double distance : reach)
+    distances.push_back(2. * distance + skin);
+  untouchable = find_untouchable_facets<dim>(surface, distances,
+                                             [this](unsigned int body) { return is_allowed(body, body); });
 }
 
 template <int dim>
@@ -105,9 +112,9 @@ std::vector<unsigned int> NeighbourList<dim>::find_near_bodies(unsigned int body
   std::vector<unsigned int> near;
   if (owns_any)
     append_near_boxes<dim>(boxes.body_tree, boxes.bodies, boxes.bodies[body], distance, near);
-  near.erase(std::remove_if(near.begin(), near.end(),
-                            [&](unsigned int other) { return other == body || !is_allowed(body, other); }),
-             near.end());
+  near.erase(
+      std::remove_if(near.begin(), near.end(), [&](unsigned int other) { return !is_allowed(body, other); }),
+      near.end());
   return near;
 }
 
@@ -135,6 +142,13 @@ void NeighbourList<dim>::add_neighbours_of_facet(unsigned int facet, unsigned in
     tree = make_tree<dim>(boxes.facets, facets_of_body[target_body]);
   FacetNeighbours found{facet, target_body, {}};
   append_near_boxes<dim>(*tree, boxes.facets, boxes.facets[facet], distance, found.candidates);
+  if (surface.facets[facet].body == target_body)
+    found.candidates.erase(std::remove_if(found.candidates.begin(), found.candidates.end(),
+                                          [&](unsigned int candidate) {
+                                            return std::binary_search(untouchable[facet].begin(),
+                                                                      untouchable[facet].end(), candidate);
+                                          }),
+                           found.candidates.end());
   if (!found.candidates.empty())
     neighbours_.push_back(std::move(found));
 }

@@ -28,7 +28,8 @@ struct ContactMeasures
       resultants; ///< contact force on every body [N; N/m in 2-D], without damping
 };
 
-/// Contact forces between those that touch, with damping where velocities were given [N; N/m in 2-D].
+/// Contact forces between different ones that touch, with damping where velocities were given [N; N/m in
+/// 2-D].
 template <int dim>
 struct PairForces
 {

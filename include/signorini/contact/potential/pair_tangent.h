@@ -5,6 +5,8 @@
 
 #include <Eigen/Core>
 
+#include <vector>
+
 namespace signorini::contact
 {
 /// Hessian of A ½ k (d + o)² with the offset o of the pair, with respect to the nodes of the stencil,
@@ -23,4 +25,9 @@ template <int dim>
 void compute_obstacle_tangent(const ContactPair<dim> &pair, const PairFoot<dim> &foot,
                               const PairStencil<dim> &stencil, const SpatialTensor<dim> &depth_hessian,
                               Eigen::MatrixXd &block);
+
+/// Adds up the rows and the columns of nodes that are there twice, as where two facets of one body share
+/// them.
+template <int dim>
+void merge_nodes(std::vector<unsigned int> &nodes, Eigen::MatrixXd &block);
 } // namespace signorini::contact

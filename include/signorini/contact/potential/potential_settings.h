@@ -23,6 +23,7 @@ struct PotentialSettings
   double skin_over_thickness = 0.5;     ///< skin of the neighbour list over the smallest layer thickness, > 0
   std::vector<std::pair<unsigned int, unsigned int>> excluded_body_pairs;     ///< in either order
   std::vector<std::pair<unsigned int, unsigned int>> excluded_obstacle_pairs; ///< (body, obstacle)
-  std::optional<double> damping_ratio;                                        ///< ξ ≥ 0
+  std::vector<unsigned int> self_contact; ///< bodies that may touch themselves
+  std::optional<double> damping_ratio;    ///< ξ ≥ 0
 };
 } // namespace signorini::contact

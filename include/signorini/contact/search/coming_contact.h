@@ -21,7 +21,8 @@ struct StraightMotion
 /// Owned facets that may touch one of another body within the duration, in rising order: those of which a
 /// point out of a lattice of 3 (2-D) or 3 × 3 is nearer to a facet than `margins` of its own facet [m] and
 /// the way that the two facets can make towards each other. Bodies may move fast together: only relative
-/// motion counts.
+/// motion counts. If `is_allowed_pair` of a body and itself, its own facets count too, without those that are
+/// untouchable by four margins and those that have a node in common.
 template <int dim>
 std::vector<unsigned int>
 find_coming_contact(const ContactSurface<dim> &surface, const StraightMotion<dim> &motion,

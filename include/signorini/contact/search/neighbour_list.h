@@ -9,7 +9,7 @@
 
 namespace signorini::contact
 {
-/// The facets of one body that may touch one owned facet of another.
+/// The facets of one body that may touch one owned facet, of another body or of the same.
 struct FacetNeighbours
 {
   unsigned int facet = 0;
@@ -17,7 +17,8 @@ struct FacetNeighbours
   std::vector<unsigned int> candidates;
 };
 
-/// Pairs of near facets of different bodies, valid until some node has moved half the skin.
+/// Pairs of near facets of different bodies, and of bodies that may touch themselves, valid until some node
+/// has moved half the skin.
 ///
 /// The order of neighbours() and of their candidates depends on the surface's numbering only.
 template <int dim>
@@ -28,14 +29,16 @@ public:
   using IsAllowedPair = std::function<bool(unsigned int body, unsigned int other_body)>;
 
   /// `reach` [m], one a facet: how deep or far a point of that facet may see. `skin` > 0 [m].
-  /// `surface` must outlive this object. Throws std::invalid_argument if these do not fit together.
+  /// `is_allowed_pair` of a body and itself: whether it may touch itself; what of it is left out of that is
+  /// settled here, on the undeformed surface (find_untouchable_facets). `surface` must outlive this object.
+  /// Throws std::invalid_argument if these do not fit together.
   NeighbourList(const ContactSurface<dim> &contact_surface, std::vector<double> facet_reach,
                 double skin_thickness, IsAllowedPair is_allowed_pair);
 
   /// True before the first build, and as soon as any node moved more than skin/2 since.
   bool is_stale(const Positions &positions) const { return record.is_stale(positions); }
 
-  /// Finds, for every owned facet, all facets of other bodies whose bounding boxes come within reach + skin
+  /// Finds, for every owned facet, all facets that it may touch whose bounding boxes come within reach + skin
   /// of its own (the skin a little wider for facets of degree 2, whose points may move farther than their
   /// nodes).
   void rebuild(const Positions &positions);
@@ -59,6 +62,7 @@ private:
   double largest_motion_factor = 1.;
   IsAllowedPair is_allowed;
   std::vector<std::vector<unsigned int>> facets_of_body;
+  std::vector<std::vector<unsigned int>> untouchable; ///< of its own body, one a facet
 
   std::vector<FacetNeighbours> neighbours_;
 };
