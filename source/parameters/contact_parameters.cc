@@ -62,13 +62,19 @@ void check_volume_potential(const ParameterText &text, const SectionReader &sect
 }
 
 /// What friction needs of the contact.
-void check_friction(const SectionReader &section, const ContactParameters &contact)
+void check_friction(const ParameterText &text, const SectionReader &section, const ContactParameters &contact)
 {
   if (contact.integration == ContactParameters::Integration::face_segments)
     throw InputError(
         section.complain("Integration", "friction needs points that stay, and those of face segments do not")
             .expected("automatic or face quadrature")
             .advise("set Integration = face quadrature, or remove 'Friction'"));
+  if (contact.correction)
+    throw InputError(
+        Complaint("'Contact/Friction' contradicts 'Contact/Correction': they do not work together yet")
+            .at(text.where("Contact/Correction"))
+            .found("'Friction' stands at " + text.where("Contact/Friction"))
+            .advise("remove the one, and raise Penalty factor for less penetration"));
   if (!contact.penalty_factor)
     throw InputError(section
                          .complain("Penalty factor",
@@ -313,7 +319,7 @@ ContactParameters read_contact(const ParameterText &text, const Declarations &in
   if (contact.potential == ContactParameters::Potential::volume)
     check_volume_potential(text, section, contact, !obstacles.empty());
   if (contact.friction)
-    check_friction(section, contact);
+    check_friction(text, section, contact);
   return contact;
 }
 

@@ -268,6 +268,10 @@ void Simulation<dim>::check_initial_overlap()
                     ", or set Contact/Allow initial overlap = true"));
   progress.say(fmt::format("Initial overlap: {} in {} by {} at {}; contact stores {:.6g} J", body, other,
                            depth, where, energy));
+  if (has_implicit_contact() || std::holds_alternative<ImplicitParameters>(parameters.solver))
+    warn("implicit contact takes most of the energy of an initial overlap out of the motion and books it as "
+         "its "
+         "loss: to have it released take 'Explicit' with Contact stepping = explicit");
 }
 
 template <int dim>

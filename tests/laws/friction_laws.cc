@@ -345,14 +345,7 @@ TEST_P(FrictionLaws, TangentIsTheDerivativeOfTheForces)
             };
             const auto difference = shifted<dim>(force_at(step), force_at(-step), -1.);
             rubbing.move_to(x);
-            auto predicted = scene.zeros();
-            rubbing.friction.for_each_tangent(
-                [&](const std::vector<unsigned int> &nodes, const Eigen::MatrixXd &block)
-                {
-                  for (std::size_t a = 0; a < nodes.size(); ++a)
-                    for (std::size_t b = 0; b < nodes.size(); ++b)
-                      predicted[nodes[a]] -= block.block<dim, dim>(dim * a, dim * b) * direction[nodes[b]];
-                });
+            const auto predicted = apply_tangent<dim>(rubbing.friction, direction);
             EXPECT_LT(norm<dim>(shifted<dim>(difference, predicted, -2. * step)),
                       1e-6 * 2. * step * norm<dim>(predicted));
           }

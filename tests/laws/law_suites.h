@@ -91,6 +91,32 @@ struct NameCase
   }
 };
 
+/// Where the nodes of a scene were before a step: they slid, sank and bent in it.
+template <typename Scene>
+auto make_start(const Scene &scene)
+{
+  constexpr int dim = std::decay_t<decltype(scene.positions[0])>::RowsAtCompileTime;
+  SpatialVector<dim> way = .02 * SpatialVector<dim>::Unit(dim - 1);
+  way[0] = .03;
+  RandomVectors<dim> random(11);
+  return shifted<dim>(scene.moved(way), random.field(scene.positions.size(), 5e-3), 1.);
+}
+
+/// What the tangent of `friction` makes of the forces of nodes that move by these vectors.
+template <int dim, typename Friction>
+Positions<dim> apply_tangent(const Friction &friction, const Positions<dim> &way)
+{
+  Positions<dim> change(way.size(), SpatialVector<dim>::Zero());
+  friction.for_each_tangent(
+      [&](const std::vector<unsigned int> &nodes, const Eigen::MatrixXd &block)
+      {
+        for (std::size_t a = 0; a < nodes.size(); ++a)
+          for (std::size_t b = 0; b < nodes.size(); ++b)
+            change[nodes[a]] -= block.block<dim, dim>(dim * a, dim * b) * way[nodes[b]];
+      });
+  return change;
+}
+
 /// Sum of the forces, and of their moments about the origin (entries of the skew part of Σ x fᵀ).
 template <int dim>
 double measure_imbalance(const Positions<dim> &x, const Positions<dim> &forces)

@@ -71,7 +71,10 @@ class DirectoryTest(ProgramTest):
     def test_deep_penetration_is_warned_of(self):
         done = self.run_program(BLOCKS, "--set", "Contact/Penalty factor=0.05", "--quiet")
         self.assertEqual((done.returncode, done.stdout, done.stderr), (0, "", ""))
-        self.assertIn("raise Contact/Penalty factor or refine", self.summary()["warnings"][0])
+        on_the_way, at_the_end = self.summary()["warnings"]
+        self.assertIn("body 'upper' has sunk into what it touches by 0.3", on_the_way)
+        self.assertIn("at 0.5 of an element the run will stop", on_the_way)
+        self.assertIn("raise Contact/Penalty factor or refine", at_the_end)
 
     def test_a_mesh_in_pieces_is_warned_of(self):
         mesh = pathlib.Path(self.folder.name) / "pieces.inp"
