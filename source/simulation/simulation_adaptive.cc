@@ -51,7 +51,6 @@ void Simulation<dim>::adapt_to_load()
         });
     adapt_mesh();
     check_adapted(solve_load_step(state.time));
-    accept_slips();
     estimate_error();
   }
 }

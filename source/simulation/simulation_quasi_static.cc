@@ -50,6 +50,8 @@ std::optional<Complaint> Simulation<dim>::solve_load_step(double time)
   {
     forces.elasticity->update(state);
     results.energy.plastic_work += forces.elasticity->commit();
+    for (const auto &friction : forces.frictions)
+      results.energy.rubbed_off += friction->commit();
     return {};
   }
   state = before;
@@ -88,13 +90,6 @@ std::optional<Complaint> Simulation<dim>::find_equilibrium(double time)
 }
 
 template <int dim>
-void Simulation<dim>::accept_slips()
-{
-  for (const auto &friction : forces.frictions)
-    results.energy.rubbed_off += friction->commit();
-}
-
-template <int dim>
 void Simulation<dim>::run_quasi_static()
 {
   const auto &solver_parameters = std::get<QuasiStaticParameters>(parameters.solver);
@@ -123,7 +118,6 @@ void Simulation<dim>::run_quasi_static()
       continue;
     }
     ++results.n_steps;
-    accept_slips();
     estimate_error();
     // Halved steps make one load step of the file: so many cycles as it asks for, unless contact needs them.
     const double n_load_steps = std::floor(time / largest_step + 1e-9);

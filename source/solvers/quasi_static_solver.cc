@@ -17,6 +17,27 @@ namespace
 /// Up to about here sparse factorisation beats iteration (measured in 3-D, doc/theory.md).
 constexpr unsigned int max_n_dofs_direct_3d = 60000, max_n_dofs_direct_2d = 200000;
 
+/// Holds frictions for an iteration, until the end of its scope, whatever ends it.
+template <int dim>
+class Hold
+{
+public:
+  explicit Hold(const SceneForces<dim> &scene_forces) : forces(scene_forces)
+  {
+    for (const auto &friction : forces.frictions)
+      friction->hold();
+  }
+  ~Hold()
+  {
+    for (const auto &friction : forces.frictions)
+      friction->release();
+  }
+  Hold(const Hold &) = delete;
+  Hold &operator=(const Hold &) = delete;
+
+private:
+  const SceneForces<dim> &forces;
+};
 } // namespace
 
 template <int dim>
@@ -248,15 +269,11 @@ bool QuasiStaticSolver<dim>::find_minimum(State &state, NewtonReport &progress, 
     if (iteration == parameters.max_iterations)
       give_up(fmt::format("Newton's method only reached a relative residual of {:.3g}", progress.residual),
               "use more load steps, or raise Quasi-static/Maximum iterations");
-    for (const auto &friction : forces->frictions)
-      friction->hold();
+    const Hold<dim> hold(*forces);
     if (!forces->frictions.empty())
       balance.compute(state);
     progress.linear_iterations = compute_increment(DrivenBy::residual, increment);
     progress.step_length = search_along(increment, state);
-    for (const auto &friction : forces->frictions)
-      friction->release();
-
     if (progress.step_length == 0.)
       give_up("no step along Newton's direction lowers the energy", "use more load steps");
     ++total_iterations;

@@ -59,7 +59,8 @@ private:
   std::optional<Complaint> make_implicit_step(double time_step, bool may_be_unsteady);
   /// Whether there is inertia.
   bool is_in_motion() const { return !std::holds_alternative<QuasiStaticParameters>(parameters.solver); }
-  /// Returns why there is none, with the state as it was.
+  /// Finds the equilibrium and accepts what it slid and yielded on the way; returns why there is none, with
+  /// the state as it was.
   std::optional<Complaint> solve_load_step(double time);
   /// The parts of solve_load_step(); they return why they failed.
   std::optional<Complaint> find_equilibrium(double time);
@@ -83,8 +84,6 @@ private:
   bool mark_in_motion(double duration, OtherCells others);
   /// Adapts the mesh in the middle of the run, `time_step` being the step that would be next.
   void adapt_in_explicit_run(double time_step);
-  /// Friction goes on from the present state.
-  void accept_slips();
   void record_quasi_static();
   /// Refines the mesh and finds the equilibrium anew until the estimated error or the cycles end it.
   void adapt_to_load();
