@@ -248,8 +248,14 @@ void ExplicitSolver<dim>::book_step(const State &state, double time_step)
         0.5 * (old_viscous_force * increment + viscous_force * increment);
   if (has_external_forces)
   {
-    this->book_impulse(old_external, 0.5 * time_step);
-    this->book_impulse(external, 0.5 * time_step);
+    // In one sum: after a million steps it shows.
+    VectorAndMoment both = old_external;
+    for (unsigned int d = 0; d < 3; ++d)
+    {
+      both.vector[d] += external.vector[d];
+      both.moment[d] += external.moment[d];
+    }
+    this->book_impulse(both, 0.5 * time_step);
   }
   if (!supports->entries().empty())
     book_supports(state, time_step);

@@ -58,10 +58,12 @@ void Friction<dim>::begin()
     std::vector<FrictionPoint<dim> *> points;  ///< one a place
   };
   std::map<typename PlacedSlip<dim>::Partners, Group> groups;
+  // Both sides of a body that touches itself have the same partners: along their normals they lie apart.
+  const double lift = potential.pair_list().skin();
   for (const PlacedSlip<dim> &placed : remembered)
   {
     Group &group = groups[placed.partners];
-    group.known.push_back(placed.position);
+    group.known.push_back(placed.position + lift * placed.slip.normal);
     group.slips.push_back(&placed.slip);
   }
   // Of two that are equally near round-off must not choose: looked for is from a little beside the point.
@@ -74,7 +76,8 @@ void Friction<dim>::begin()
                                      const auto group = groups.find(partners_of(near));
                                      if (group == groups.end())
                                        return;
-                                     group->second.places.push_back(near.foot.position + beside);
+                                     group->second.places.push_back(near.foot.position +
+                                                                    lift * near.foot.normal + beside);
                                      group->second.points.push_back(&point_of(near, history));
                                    });
   for (const auto &[partners, group] : groups)
@@ -268,6 +271,7 @@ double Friction<dim>::commit()
 {
   old_positions = potential.positions();
   old_shifts = potential.obstacle_places().shifts;
+  history.forget_parted();
   double dissipated = 0.;
   const auto accept = [&dissipated](const auto &pairs, auto &points)
   {

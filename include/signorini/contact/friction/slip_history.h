@@ -3,6 +3,7 @@
 
 #include "signorini/contact/potential/pair_list.h"
 
+#include <map>
 #include <tuple>
 
 namespace signorini::contact
@@ -54,15 +55,22 @@ public:
   /// Brings the points into the order of the pairs. Does nothing unless these have been renewed.
   void follow(const PairList<dim> &pairs);
 
+  /// Forgets the points that have no pair any more: until a step is accepted its attempts may lose pairs that
+  /// the next one has again.
+  void forget_parted();
+
   Points bodies;    ///< one a body pair
   Points obstacles; ///< one an obstacle pair
 
 private:
   using Keys = std::vector<PairKey<dim>>;
+  using PointsByKey = std::map<PairKey<dim>, FrictionPoint<dim>>;
 
-  static void reorder(const Pairs &pairs, Keys &keys, Points &points);
+  static void reorder(const Pairs &pairs, Keys &keys, Points &points, PointsByKey &parted);
 
   Keys body_keys, obstacle_keys; ///< of the points, in their order
+  PointsByKey parted_bodies,
+      parted_obstacles; ///< that touched at the last accepted step and have no pair now
   unsigned int n_renewals = 0;
 };
 } // namespace signorini::contact
