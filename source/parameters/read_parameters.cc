@@ -91,7 +91,7 @@ void check_quasi_static(const ParameterText &text, const Parameters &parameters)
       throw InputError(Complaint(fmt::format("'{}' contradicts 'Quasi-static': {}", path, what))
                            .at(text.where(path))
                            .found("'Quasi-static' stands at " + text.where("Quasi-static"))
-                           .advise("remove the subsection, or run 'Explicit' or 'Implicit'"));
+                           .advise("remove the subsection, or run 'Explicit'"));
   };
   for (const BodyParameters &body : parameters.bodies)
   {

@@ -243,11 +243,13 @@ AdaptivityParameters read_adaptivity(const ParameterText &text, const Declaratio
 {
   AdaptivityParameters adaptivity;
   const SectionReader section(text, in_use, "Adaptivity", 3);
-  const bool is_explicit = text.find_subsection("Explicit") != nullptr;
-  read_entries(is_explicit ? explicit_adaptivity_entries() : quasi_static_adaptivity_entries(), section,
-               adaptivity);
+  const bool is_quasi_static = text.find_subsection("Quasi-static") != nullptr;
+  if (is_quasi_static)
+    read_entries(quasi_static_adaptivity_entries(), section, adaptivity);
+  if (text.find_subsection("Explicit") != nullptr)
+    read_entries(explicit_adaptivity_entries(), section, adaptivity);
   read_entries(common_adaptivity_entries(), section, adaptivity);
-  if (!is_explicit && adaptivity.refine_share == 0.)
+  if (is_quasi_static && adaptivity.refine_share == 0.)
     throw InputError(section.complain("Refine share", "a quasi-static run would refine nothing")
                          .expected("above 0")
                          .advise("raise it, or remove 'Adaptivity'"));

@@ -98,6 +98,8 @@ void Simulation<dim>::run_quasi_static()
   const double end = solver_parameters.end_time, largest_step = end / solver_parameters.load_steps;
   const double smallest_step = largest_step * std::pow(0.5, solver_parameters.max_bisections);
   double step = largest_step, n_load_steps_done = 0.;
+  for (const auto &friction : forces.frictions)
+    friction->update(discretization->make_vector()); // nothing has moved yet
   estimate_error();
   record_quasi_static();
   write_fields();
