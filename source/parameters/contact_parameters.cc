@@ -251,8 +251,10 @@ void declare_contact(Declarations &declarations, const DeclarationScope &scope)
       "about the ratio of their parts in the way of the loads; a quarter more is let pass.");
   contact.add("Integration", one_of(names_in(integrations())), "automatic", "",
               "Automatic: face segments in quasi-static runs without friction, else face quadrature.");
-  contact.add("Quadrature points", integer_from(1, 8), "3", "",
-              "Quadrature points in each direction of a face.");
+  contact.add(
+      "Quadrature points", or_word(integer_from(1, 8), "automatic"), "automatic", "",
+      "Quadrature points in each direction of a face. Automatic: 3; with friction on what has corners "
+      "8 in 2-D, 5 in 3-D, as a corner that digs in holds on to points far apart.");
   contact.add("Excluded pairs", any_text(), "", "",
               "Pairs of bodies, or of a body and an obstacle, that ignore each other: a:b, c:d.");
   contact.add("Self-contact", any_text(), "", "",
@@ -299,7 +301,8 @@ ContactParameters read_contact(const ParameterText &text, const Declarations &in
   contact.potential = section.choice("Potential", potentials());
   contact.contact_share = section.number("Contact share");
   contact.integration = section.choice("Integration", integrations());
-  contact.quadrature_points = section.integer("Quadrature points");
+  if (section.value("Quadrature points") != "automatic")
+    contact.quadrature_points = section.integer("Quadrature points");
   contact.excluded_pairs = read_pairs(section, bodies, obstacles);
   contact.self_contact = read_self_contact(section, bodies);
   contact.max_penetration = section.number("Maximum penetration");

@@ -18,6 +18,20 @@ namespace signorini
 {
 namespace
 {
+/// A direction of a face. A corner that digs into an element holds on to a point there with the force of all
+/// that the point stands for: under friction points must be dense.
+template <int dim>
+unsigned int choose_quadrature_points(const Parameters &parameters)
+{
+  const ContactParameters &contact = *parameters.contact;
+  const bool has_corners =
+      parameters.bodies.size() > 1 || !contact.self_contact.empty() ||
+      std::any_of(parameters.obstacles.begin(), parameters.obstacles.end(),
+                  [](const auto &obstacle) { return obstacle.shape == ObstacleParameters::Shape::box; });
+  const unsigned int automatic = !(contact.friction && has_corners) ? 3 : dim == 2 ? 8 : 5;
+  return contact.quadrature_points.value_or(automatic);
+}
+
 template <int dim>
 contact::PotentialSettings make_settings(const Parameters &parameters, double penalty_factor)
 {
@@ -26,7 +40,7 @@ contact::PotentialSettings make_settings(const Parameters &parameters, double pe
   const bool is_in_motion = !std::holds_alternative<QuasiStaticParameters>(parameters.solver);
   contact::PotentialSettings settings;
   settings.penalty_factor = penalty_factor;
-  settings.n_quadrature_points = contact.quadrature_points;
+  settings.n_quadrature_points = choose_quadrature_points<dim>(parameters);
   const bool is_by_faces = contact.integration == Wanted::automatic
                                ? is_in_motion || contact.friction.has_value()
                                : contact.integration == Wanted::face_quadrature;
@@ -194,7 +208,7 @@ void Simulation<dim>::check_obstacle_sizes() const
   {
     const auto &x = surface_map->surface().reference_positions;
     const double edge = (x[facet.nodes[facet.degree]] - x[facet.nodes[0]]).norm();
-    const double reach = 0.6 * std::sqrt(dim - 1.) * edge / parameters.contact->quadrature_points;
+    const double reach = 0.6 * std::sqrt(dim - 1.) * edge / choose_quadrature_points<dim>(parameters);
     return reach < radius ? radius - std::sqrt(radius * radius - reach * reach)
                           : std::numeric_limits<double>::max();
   };

@@ -327,10 +327,10 @@ TEST_P(FrictionLaws, TangentIsTheDerivativeOfTheForces)
       [](const auto &scene, auto dimension)
       {
         constexpr int dim = decltype(dimension)::value;
-        for (const double coefficient : {.3, never_slides})
+        const auto check = [&](double coefficient, double start)
         {
-          Rubbing<dim> rubbing(scene, coefficient);
-          rubbing.move_to(stir<dim>(scene.positions, 12));
+          Rubbing<dim> rubbing(scene, coefficient, SlidUnder::last_traction);
+          rubbing.move_to(stir<dim>(scene.moved(start * SpatialVector<dim>::Unit(dim - 1)), 12));
           rubbing.friction.commit();
           const auto x = stir<dim>(scene.moved(SpatialVector<dim>::Constant(-.004)), 13);
           RandomVectors<dim> random(14);
@@ -349,6 +349,37 @@ TEST_P(FrictionLaws, TangentIsTheDerivativeOfTheForces)
             EXPECT_LT(norm<dim>(shifted<dim>(difference, predicted, -2. * step)),
                       1e-6 * 2. * step * norm<dim>(predicted));
           }
+        };
+        for (const double coefficient : {.3, never_slides})
+          for (const double start : {0., .15}) // in touch, and not yet
+            check(coefficient, start);
+      });
+}
+
+/// A point that comes to a plane obliquely sticks within the cone and has slipped only since it touched.
+TEST_P(FrictionLaws, APointThatComesSlipsFromTheTouchOn)
+{
+  if (GetParam().target != Target::plane)
+    return;
+  on_scene(
+      [](const auto &scene, auto dimension)
+      {
+        constexpr int dim = decltype(dimension)::value;
+        SpatialVector<dim> normal = SpatialVector<dim>::Unit(dim - 1);
+        normal[0] = .1;
+        normal.normalize();
+        SpatialVector<dim> along = RandomVectors<dim>(7).vector(1.);
+        along = (along - normal.dot(along) * normal).normalized();
+        for (const double tangent : {.2, .4}) // of the angle it comes at, beside a coefficient of 0.3
+        {
+          Rubbing<dim> rubbing(scene, .3, SlidUnder::last_traction);
+          const double height = .15;
+          rubbing.move_to(scene.moved(height * normal));
+          EXPECT_EQ(rubbing.total_pressure(), 0.);
+          rubbing.friction.commit();
+          rubbing.move_to(scene.moved(height * tangent * along));
+          const double expected = std::min(tangent, .3) * rubbing.total_pressure();
+          EXPECT_LT((rubbing.resultant() + expected * along).norm(), 1e-12 * expected);
         }
       });
 }

@@ -189,7 +189,7 @@ struct ContactParameters
   double contact_share =
       0.25; ///< of the squared error by contact in that of discretisation, for the choice of α
   Integration integration = Integration::automatic;
-  unsigned int quadrature_points = 3; ///< a direction
+  std::optional<unsigned int> quadrature_points; ///< a direction; none: by what touches
   std::vector<std::pair<std::string, std::string>>
       excluded_pairs;                    ///< names of two bodies, or a body and an obstacle
   std::vector<std::string> self_contact; ///< bodies that may touch themselves

@@ -136,7 +136,10 @@ void Friction<dim>::slip(const NearPair &near, double pressure, FrictionPoint<di
 {
   const CoulombLaw law{coefficient, near.pair.stiffness};
   const SlipMotion<dim> motion = find_motion(near);
-  const SpatialVector<dim> kept = motion.carry(point.before), trial = kept + motion.find_increment();
+  const bool slips_all_the_way = slid_under == SlidUnder::mean_traction || point.before.is_touching();
+  point.share = slips_all_the_way ? 1. : motion.find_share(near.overlap());
+  const SpatialVector<dim> kept = motion.carry(point.before),
+                           trial = kept + point.share * motion.find_increment();
   point.now.elastic = point.is_held ? trial : law.find_elastic_slip(trial, pressure);
   point.now.normal = near.foot.normal;
   point.slid = trial - point.now.elastic;
@@ -261,7 +264,7 @@ double Friction<dim>::held_energy() const
         const FrictionPoint<dim> &point = point_of(near, history);
         const double trial = (point.now.elastic + point.slid).norm(),
                      elastic = point.is_held ? trial : std::min(trial, point.held_limit);
-        sum += near.pair.area * near.pair.stiffness * elastic * (trial - .5 * elastic);
+        sum += near.pair.area * near.pair.stiffness * elastic * (trial - .5 * elastic) / point.share;
       });
   return sum;
 }

@@ -91,7 +91,8 @@ Vector<dim> find_force(const RubbingPoint<dim> &point, const SlipMotion<dim, Num
                        const Number<dim> &overlap)
 {
   const CoulombLaw law{point.coefficient, point.pair.stiffness};
-  const Vector<dim> trial = motion.carry(point.before) + motion.find_increment();
+  const Number<dim> share = point.before.is_touching() ? Number<dim>(1.) : motion.find_share(overlap);
+  const Vector<dim> trial = motion.carry(point.before) + share * motion.find_increment();
   const Number<dim> pressure = overlap > 0. ? Number<dim>(point.pair.stiffness * overlap) : Number<dim>(0.);
   const Number<dim> factor(-point.pair.area * point.pair.stiffness);
   if (point.is_held)

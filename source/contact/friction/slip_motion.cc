@@ -18,9 +18,16 @@ auto SlipMotion<dim, Number>::carry(const PointSlip<dim> &slip) const -> Vector
 template <int dim, typename Number>
 auto SlipMotion<dim, Number>::find_increment() const -> Vector
 {
-  const Vector moved = now - turn * before - shift;
+  const Vector moved = find_motion();
   const Number along_normal = normal.dot(moved);
   return moved - along_normal * normal;
+}
+
+template <int dim, typename Number>
+Number SlipMotion<dim, Number>::find_share(const Number &overlap) const
+{
+  const Number approach = -normal.dot(find_motion());
+  return overlap > 0. && approach > overlap ? Number(overlap / approach) : Number(1.);
 }
 
 template struct SlipMotion<2>;

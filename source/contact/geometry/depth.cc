@@ -13,7 +13,8 @@ namespace signorini::contact
 namespace
 {
 constexpr double pi = 3.14159265358979323846;
-constexpr double tie_tolerance = 1e-9; ///< relative to the facet's size
+constexpr double tie_tolerance = 1e-9;       ///< of places, relative to the facet's size
+constexpr double distance_tolerance = 1e-12; ///< of distances, likewise
 
 template <int dim>
 struct Box
@@ -93,31 +94,71 @@ void Fan<3>::add_sector(const FacetNodes<3> &nodes, const LocalPoint<3> &xi)
   normal += angle * make_unit<3>(frame.area_normal);
 }
 
-/// The closest facet, its foot's depth not yet signed. Where several are equally close, the first of them.
+/// Which of two facets a contactor faces; its normal is only found once it is asked for.
+template <int dim>
+class Facing
+{
+public:
+  Facing(const std::vector<Facet<dim>> &all_facets, const std::vector<SpatialVector<dim>> &all_positions,
+         const SurfacePlace<dim> *place_of_contactor)
+      : facets(all_facets), positions(all_positions), contactor(place_of_contactor)
+  {
+  }
+
+  bool is_asked() const { return contactor != nullptr; }
+
+  bool is_better(const FacetNodes<dim> &one, const LocalPoint<dim> &xi, const SurfaceFoot<dim> &other)
+  {
+    if (!is_asked())
+      return false;
+    if (normal == SpatialVector<dim>::Zero())
+      normal = normal_of(gather_nodes(facets[contactor->facet], positions), contactor->xi);
+    const SpatialVector<dim> other_normal =
+        normal_of(gather_nodes(facets[other.facet], positions), other.closest.xi);
+    return normal.dot(normal_of(one, xi)) < normal.dot(other_normal) - tie_tolerance;
+  }
+
+private:
+  static SpatialVector<dim> normal_of(const FacetNodes<dim> &nodes, const LocalPoint<dim> &xi)
+  {
+    return make_unit<dim>(evaluate_facet_frame(nodes, xi).area_normal);
+  }
+
+  const std::vector<Facet<dim>> &facets;
+  const std::vector<SpatialVector<dim>> &positions;
+  const SurfacePlace<dim> *contactor; ///< null: none
+  SpatialVector<dim> normal = SpatialVector<dim>::Zero();
+};
+
+/// The closest facet, its foot's depth not yet signed.
 template <int dim>
 SurfaceFoot<dim> find_closest_facet(const std::vector<Facet<dim>> &facets,
                                     const std::vector<SpatialVector<dim>> &positions,
                                     const unsigned int *candidates, const unsigned int n_candidates,
-                                    const SpatialVector<dim> &x, const double cutoff)
+                                    const SpatialVector<dim> &x, const double cutoff, Facing<dim> facing)
 {
   SurfaceFoot<dim> best;
   best.closest.xi.setZero();
   best.closest.position = x;
   best.closest.distance = std::numeric_limits<double>::infinity();
   best.depth = -std::numeric_limits<double>::infinity();
-  double limit = cutoff;
   for (unsigned int c = 0; c < n_candidates; ++c)
   {
     const FacetNodes<dim> nodes = gather_nodes(facets[candidates[c]], positions);
-    if (make_box(nodes).squared_distance(x) > limit * limit)
+    const Box<dim> box = make_box(nodes);
+    const double tie = facing.is_asked() ? distance_tolerance * box.half_width.norm() : 0.,
+                 limit = std::min(cutoff, best.closest.distance + tie);
+    if (box.squared_distance(x) > limit * limit)
       continue;
     const ClosestPoint<dim> closest = find_closest_point(nodes, x);
-    if (closest.distance <= cutoff && closest.distance < best.closest.distance * (1. - 1e-12))
+    if (closest.distance > limit)
+      continue;
+    if (closest.distance < best.closest.distance * (1. - 1e-12) - tie ||
+        facing.is_better(nodes, closest.xi, best))
     {
       best.facet = candidates[c];
       best.closest = closest;
       best.depth = -closest.distance;
-      limit = closest.distance;
     }
   }
   return best;
@@ -149,9 +190,11 @@ Fan<dim> gather_fan(const std::vector<Facet<dim>> &facets, const std::vector<Spa
 template <int dim>
 SurfaceFoot<dim> find_foot(const std::vector<Facet<dim>> &facets,
                            const std::vector<SpatialVector<dim>> &positions, const unsigned int *candidates,
-                           const unsigned int n_candidates, const SpatialVector<dim> &x, const double cutoff)
+                           const unsigned int n_candidates, const SpatialVector<dim> &x, const double cutoff,
+                           const SurfacePlace<dim> *contactor)
 {
-  SurfaceFoot<dim> foot = find_closest_facet(facets, positions, candidates, n_candidates, x, cutoff);
+  SurfaceFoot<dim> foot = find_closest_facet(facets, positions, candidates, n_candidates, x, cutoff,
+                                             Facing<dim>(facets, positions, contactor));
   if (std::isinf(foot.closest.distance))
     return foot;
 
@@ -170,7 +213,9 @@ SurfaceFoot<dim> find_foot(const std::vector<Facet<dim>> &facets,
 }
 
 template SurfaceFoot<2> find_foot(const std::vector<Facet<2>> &, const std::vector<SpatialVector<2>> &,
-                                  const unsigned int *, unsigned int, const SpatialVector<2> &, double);
+                                  const unsigned int *, unsigned int, const SpatialVector<2> &, double,
+                                  const SurfacePlace<2> *);
 template SurfaceFoot<3> find_foot(const std::vector<Facet<3>> &, const std::vector<SpatialVector<3>> &,
-                                  const unsigned int *, unsigned int, const SpatialVector<3> &, double);
+                                  const unsigned int *, unsigned int, const SpatialVector<3> &, double,
+                                  const SurfacePlace<3> *);
 } // namespace signorini::contact

@@ -170,8 +170,9 @@ SurfaceFoot<dim> PairList<dim>::find_body_foot(const ContactPair<dim> &pair, con
                                                const SpatialVector<dim> &x, double cutoff) const
 {
   const std::vector<unsigned int> &candidates = neighbour_list.neighbours()[pair.neighbours].candidates;
+  const SurfacePlace<dim> contactor{pair.facet, pair.xi};
   return find_foot(surface.facets, positions, candidates.data(), static_cast<unsigned int>(candidates.size()),
-                   x, cutoff);
+                   x, cutoff, &contactor);
 }
 
 template <int dim>
@@ -205,6 +206,7 @@ void PairList<dim>::add_body_pair(unsigned int neighbours, const FacetPoint &poi
   pair.facet = neighbour_list.neighbours()[neighbours].facet;
   pair.target = neighbour_list.neighbours()[neighbours].target_body;
   pair.neighbours = neighbours;
+  pair.xi = point.point.xi;
 
   const double motion = largest_motion_factor * skin_;
   const SpatialVector<dim> x = interpolate(surface.facets[pair.facet], point.shape, positions);

@@ -71,8 +71,9 @@ public:
   /// Lets all points obey Coulomb's law again.
   void release();
 
-  /// Σ A k_A (½ |s|² + |s| |Δs_slid|) with the slip s that held pressures would leave of the trial slip: the
-  /// function of the positions, convex in the slip, whose gradient the forces are at held pressures [J].
+  /// Σ A k_A (½ |s|² + |s| |Δs_slid|) / share with the slip s that held pressures would leave of the trial
+  /// slip: the function of the positions, convex in the slip, whose gradient the forces are at held pressures
+  /// and shares [J].
   double held_energy() const;
 
   /// Adds the forces of the tractions to those of the nodes.

@@ -24,6 +24,7 @@ struct FrictionPoint
 {
   PointSlip<dim> before;  ///< at the end of the last step
   PointSlip<dim> now;     ///< at the positions of the last evaluation
+  double share = 1.;      ///< of the step, in which its slip counts
   double held_limit = 0.; ///< of the elastic slip, under the pressure that cones are held at [m]
   bool is_held = false;   ///< sticks whatever its limit, see Friction::hold()
   SpatialVector<dim> direction = SpatialVector<dim>::Zero(); ///< of sliding at the last hold(); zero: none

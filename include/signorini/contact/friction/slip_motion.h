@@ -24,5 +24,13 @@ struct SlipMotion
 
   /// Δs, across the normal [m].
   Vector find_increment() const;
+
+  /// The share of the step in which a point has touched that did not when it began and overlaps by `overlap`
+  /// [m] now, on a straight way; 1 for one that does not touch yet.
+  Number find_share(const Number &overlap) const;
+
+private:
+  /// Of the point beyond its target [m].
+  Vector find_motion() const { return now - turn * before - shift; }
 };
 } // namespace signorini::contact

@@ -16,6 +16,14 @@ struct SurfaceFoot
   double depth = 0.; ///< signed: positive below the surface (inside the body), negative outside [m]
 };
 
+/// A point of the surface.
+template <int dim>
+struct SurfacePlace
+{
+  unsigned int facet = 0; ///< index into the surface's facets
+  LocalPoint<dim> xi;
+};
+
 /// Finds the foot of `x` on the surface that the facets `candidates[0 … n_candidates)` form (all of one
 /// body), and the sign of its depth.
 ///
@@ -26,8 +34,11 @@ struct SurfaceFoot
 /// counts with its corner angle at a corner, π on an edge, 2π inside; this needs no adjacency and so holds at
 /// hanging nodes too.
 ///
-/// Of equally close facets the first candidate is taken. All candidates that hold the foot take part in the
-/// sign, so the list must hold every facet within the foot's distance of `x`.
+/// Of facets that are equally close, to 1e-12 of their size, the one whose normal points most against that of
+/// the surface at `contactor`, the place of `x`, is taken: a point on the middle axis of a spike belongs to
+/// the flank it faces. Without a contactor, or if they face it equally, the first candidate. All candidates
+/// that hold the foot take part in the sign, so the list must hold every facet within the foot's distance of
+/// `x`.
 ///
 /// Where the facets at the foot do not close around it (the rim of an open surface), only a point within 45°
 /// of being right below counts as inside; beside the rim there is no inside.
@@ -36,5 +47,6 @@ struct SurfaceFoot
 template <int dim>
 SurfaceFoot<dim> find_foot(const std::vector<Facet<dim>> &facets,
                            const std::vector<SpatialVector<dim>> &positions, const unsigned int *candidates,
-                           unsigned int n_candidates, const SpatialVector<dim> &x, double cutoff);
+                           unsigned int n_candidates, const SpatialVector<dim> &x, double cutoff,
+                           const SurfacePlace<dim> *contactor = nullptr);
 } // namespace signorini::contact
