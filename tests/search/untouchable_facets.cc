@@ -80,9 +80,7 @@ TYPED_TEST(UntouchableFacets, LeaveTheSidesOfASlit)
       block.is_filled = [](const auto &cell) { return cell[0] < 2 || cell[dim - 1] != 2; };
       block.place = [=](const auto &lattice)
       {
-        SpatialVector<dim> x;
-        for (unsigned int d = 0; d < dim; ++d)
-          x[d] = lattice[d];
+        SpatialVector<dim> x = lattice_point<dim>(lattice);
         if (lattice[dim - 1] > 2)
           x[dim - 1] += gap - 1.;
         if (curvature != 0.)
@@ -151,9 +149,7 @@ TYPED_TEST(UntouchableFacets, AreTakenFromAllNearOnes)
   const auto x = c.positions(
       [](const auto &lattice)
       {
-        SpatialVector<dim> position;
-        for (unsigned int d = 0; d < dim; ++d)
-          position[d] = .7 * lattice[d];
+        SpatialVector<dim> position = .7 * lattice_point<dim>(lattice);
         const double angle = 2. * pi / 10. * lattice[0], radius = 1.5 + position[dim - 1];
         position[0] = radius * std::sin(angle);
         position[dim - 1] = radius * std::cos(angle);
@@ -188,9 +184,7 @@ TYPED_TEST(UntouchableFacets, AreNotComing)
   auto c = make_c<dim>(8);
   c.place = [](const auto &lattice)
   {
-    SpatialVector<dim> x;
-    for (unsigned int d = 0; d < dim; ++d)
-      x[d] = lattice[d];
+    SpatialVector<dim> x = lattice_point<dim>(lattice);
     x[dim - 1] += lattice[dim - 1] > 1 ? 3. : 0.;
     return x;
   };
