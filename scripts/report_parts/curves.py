@@ -11,6 +11,7 @@ from matplotlib import ticker
 INK, GRID = "#27323f", "#e3e8ee"
 MAX_FORCES = 8  # curves of forces in one plot
 COLOURS = ["#2166ac", "#d6604d", "#4d9f6a", "#e6a23c", "#7b5ea7", "#5b6b7b"]
+MORE_COLOURS = ["#b2537d", "#2a9d9a"]  # where six do not do
 STYLE = {
     "figure.figsize": (6.4, 3.7), "figure.dpi": 150, "figure.constrained_layout.use": True,
     "font.size": 9.5, "axes.titlesize": 11, "axes.titleweight": "bold", "axes.titlelocation": "left",
@@ -44,31 +45,44 @@ def contact_pressure(run):
     return figure
 
 
+#: what a run has and what it has lost; their sum is what it began with and what was put in since
+HELD = ("kinetic energy", "elastic energy", "contact energy", "dissipated since the start",
+        "dissipated by viscosity since the start", "rubbed off since the start", "plastic work since the start",
+        "energy lost by implicit contact since the start")
+PUT_IN = ("work since the start", "work of obstacles since the start", "renewed contact energy since the start",
+          "energy of adaptation since the start")
+
+
 def energy_ledger(run):
-    """All energies with their sum, and below it the residual of the ledger where there is one."""
+    """All energies with their sum, and that beside what was put in where there is a ledger, with its residual."""
     table = run.statistics
     progress = axis_of(table)
-    parts = [name for name in ("kinetic energy", "elastic energy", "contact energy", "dissipated since the start",
-                               "rubbed off since the start", "plastic work since the start")
-             if table.has_values(name) and any(finite(table[name]))]
-    if not parts or not progress:
+
+    def named(names):
+        return [name for name in names if table.has_values(name) and any(finite(table[name]))]
+
+    held, put_in = named(HELD), named(PUT_IN)
+    if not held or not progress:
         return None
     residual = table.has_values("ledger residual")
     if residual:
-        figure, (axes, below) = plt.subplots(2, 1, sharex=True, height_ratios=[3, 1], figsize=(6.4, 4.6))
+        figure, (axes, below) = plt.subplots(2, 1, sharex=True, height_ratios=[3, 1], figsize=(6.4, 4.8))
     else:
         figure, axes = plt.subplots()
         below = axes
-    for name in parts:
-        axes.plot(table[progress], table[name], label=name.removesuffix(" since the start"), **dots(table))
-    axes.plot(table[progress], [sum(values) for values in zip(*(table[name] for name in parts))], color=INK,
-              linewidth=1.1, linestyle=(0, (5, 2)), label="sum")
-    work = "work since the start"
-    if table.has_values(work) and any(finite(table[work])):
-        axes.plot(table[progress], table[work], color="#9aa7b4", linewidth=1.1, linestyle=":", label="work")
-    axes.set_ylabel(f"energy [{table.units.get(parts[0], '')}]")
-    axes.legend(ncols=6, fontsize=8, loc="lower right", bbox_to_anchor=(1.0, 0.99), columnspacing=1.0,
-                handlelength=1.5)
+    axes.set_prop_cycle(color=COLOURS + MORE_COLOURS)
+    for name in held:
+        axes.plot(table[progress], table[name], label=short(name), **dots(table))
+    total = sums(table, held)
+    if residual:
+        for name, style in zip(put_in, (":", "-.", (0, (1, 4)), (0, (6, 2, 1, 2, 1, 2)))):
+            axes.plot(table[progress], table[name], color="#9aa7b4", linewidth=1.1, linestyle=style, label=short(name))
+        axes.plot(table[progress], [total[0] + value for value in sums(table, put_in)], color="#c9d2db", linewidth=4.5,
+                  zorder=1, label="start + put in")
+    axes.plot(table[progress], total, color=INK, linewidth=1.1, linestyle=(0, (5, 2)), label="sum")
+    axes.set_ylabel(f"energy [{table.units.get(held[0], '')}]")
+    axes.legend(ncols=4, fontsize=8, loc="lower right", bbox_to_anchor=(1.0, 0.99), columnspacing=1.0,
+                handlelength=1.8)
     figure.suptitle("Energies", x=0.11, horizontalalignment="left", fontsize=11, fontweight="bold")
     if residual:
         below.plot(table[progress], table["ledger residual"], color=COLOURS[4], linewidth=1.2)
@@ -76,6 +90,15 @@ def energy_ledger(run):
         below.set_ylabel("residual")
     below.set_xlabel(table.label(progress))
     return figure
+
+
+def short(name):
+    return name.removesuffix(" since the start").removeprefix("energy of ").removeprefix("energy ")
+
+
+def sums(table, names):
+    """The sum of the columns, row by row; zeros where there is none."""
+    return [sum(values) for values in zip(*(table[name] for name in names))] or [0.0] * table.n_rows()
 
 
 def curve(run, name, title, colour):
@@ -191,7 +214,7 @@ def axis_of(table):
 
 def dots(table):
     """Few points are load steps: show them as such."""
-    return {"marker": "o", "markersize": 3.5} if len(next(iter(table.columns.values()))) <= 40 else {}
+    return {"marker": "o", "markersize": 3.5} if table.n_rows() <= 40 else {}
 
 
 #: file name, drawing function

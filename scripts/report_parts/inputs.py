@@ -25,6 +25,9 @@ class Table:
     def __getitem__(self, name):
         return self.columns[name]
 
+    def n_rows(self):
+        return len(next(iter(self.columns.values()), []))
+
     def has_values(self, name):
         """Whether the column exists and holds two finite numbers or more: a curve."""
         return sum(math.isfinite(value) for value in self.columns.get(name, [])) > 1

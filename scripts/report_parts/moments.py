@@ -13,15 +13,16 @@ import vtk
 from vtk.util.numpy_support import vtk_to_numpy
 
 sys.path.insert(0, str(pathlib.Path(__file__).parent))
+import obstacles
 import scene
 
 
 def files_at(directory, time):
-    """The files of the output nearest to a time."""
+    """The time of the output nearest to a time, and its files."""
     entries = [(float(entry.get("timestep", 0)), entry.get("file"))
                for entry in ElementTree.parse(directory / "solution.pvd").iter("DataSet")]
     nearest = min((t for t, _ in entries), key=lambda t: abs(t - time))
-    return [directory / name for t, name in entries if t == nearest]
+    return nearest, [directory / name for t, name in entries if t == nearest]
 
 
 def front_half_removed(grid):
@@ -39,8 +40,8 @@ def front_half_removed(grid):
 
 
 def main(directory, stem, times):
-    moments = [[scene.join_and_deform(scene.read_grid(path)) for path in files_at(directory, time)]
-               for time in times]
+    found = [files_at(directory, time) for time in times]
+    moments = [[scene.join_and_deform(scene.read_grid(path)) for path in files] for _, files in found]
     bounds = numpy.array([grid.GetBounds() for grids in moments for grid in grids])
     lower, upper = bounds[:, ::2].min(axis=0), bounds[:, 1::2].max(axis=0)
     values = numpy.concatenate([scene.values_of(grid, "von_mises_stress") for grids in moments for grid in grids])
@@ -49,8 +50,10 @@ def main(directory, stem, times):
     scene.SIZE = (720, 640)
     view = scene.camera(False, numpy.array([0.25, -0.9, 0.35]), (lower + upper) / 2,
                         0.35 * float(numpy.linalg.norm(upper - lower)))
-    for number, grids in enumerate(moments, start=1):
-        actors = []
+    cut = vtk.vtkPlane()
+    cut.SetNormal(0, 1, 0)
+    for number, ((time, _), grids) in enumerate(zip(found, moments), start=1):
+        actors = obstacles.make_actors(obstacles.read(directory, time), lower, upper, False, cut)
         for grid in grids:
             actors += scene.actors_of(front_half_removed(grid), "von_mises_stress", table, largest, False)
         scene.render(actors, view, pathlib.Path(f"{stem}_{number}.png"))

@@ -1,28 +1,33 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """The rigid obstacles of a run as translucent actors, cut off near the bodies. Reads parameters.prm and
-summary.json as the run left them."""
-import json
+statistics.csv as the run left them."""
 import re
 
 import numpy
 import vtk
 
+import inputs
+
 COLOUR, OPACITY = (0.36, 0.42, 0.5), 0.28
 MARGIN = 0.12  # around the bodies, as a share of the scene
 
 
-def read(directory):
-    """The entries of every obstacle and, as "shift", how far it has moved; none where the file is missing."""
-    path, summary = directory / "parameters.prm", directory / "summary.json"
-    moved = json.loads(summary.read_text(encoding="utf-8")).get("obstacles", []) if summary.is_file() else []
-    shifts = {obstacle["name"]: (obstacle["displacement"] + [0.0])[:3] for obstacle in moved}
+def read(directory, time):
+    """The entries of every obstacle and, as "shift", how far it has moved by then; none where the file is missing."""
+    path, table = directory / "parameters.prm", inputs.read_table(directory / "statistics.csv")
+    progress = "time" if "time" in table else "load parameter"
+
+    def shift_of(name):
+        columns = [f"displacement {component} of {name}" for component in "xyz"]
+        return [numpy.interp(time, table[progress], table[column]) if column in table else 0.0 for column in columns]
+
     obstacles, inside = [], []
     for line in path.read_text(encoding="utf-8", errors="replace").splitlines() if path.is_file() else []:
         words = line.split("#")[0].strip()
         if words.startswith("subsection "):
             inside.append(words[len("subsection "):].strip())
             if len(inside) == 1 and inside[0].startswith("Obstacle "):
-                obstacles.append({"shift": shifts.get(inside[0][len("Obstacle "):].strip(), (0.0, 0.0, 0.0))})
+                obstacles.append({"shift": shift_of(inside[0][len("Obstacle "):].strip())})
         elif words == "end":
             inside = inside[:-1]
         elif words.startswith("set ") and len(inside) == 1 and inside[0].startswith("Obstacle "):
@@ -46,7 +51,7 @@ def make_actors(obstacles, lower, upper, flat, cut=None):
         if numpy.linalg.norm(foot - centre) > 2 * extent:
             continue
         corners = numpy.minimum(lower, foot) - MARGIN * extent, numpy.maximum(upper, foot) + MARGIN * extent
-        source = (make_band if flat else make_surface)(function, *corners, extent)
+        source = (make_area if flat else make_surface)(function, *corners)
         if cut is not None:
             source = clip(source.GetOutputPort(), cut, 0)
         source.Update()
@@ -92,7 +97,7 @@ def make_function(obstacle, centre, flat):
     return function, centre - normal * numpy.dot(centre - point, normal)
 
 
-def make_surface(function, lower, upper, _):
+def make_surface(function, lower, upper):
     """The obstacle's surface inside a box."""
     sample = vtk.vtkSampleFunction()
     sample.SetImplicitFunction(function)
@@ -104,20 +109,16 @@ def make_surface(function, lower, upper, _):
     return contour
 
 
-def make_band(function, lower, upper, extent):
-    """The outer layer of the obstacle inside a rectangle."""
+def make_area(function, lower, upper):
+    """The obstacle inside a rectangle."""
     source = vtk.vtkPlaneSource()
     source.SetOrigin(lower[0], lower[1], 0)
     source.SetPoint1(upper[0], lower[1], 0)
     source.SetPoint2(lower[0], upper[1], 0)
     source.SetResolution(300, 300)
-    depth = 0.05 * extent
-    if isinstance(function, vtk.vtkSphere):
-        depth = max(function.GetRadius() ** 2 - max(function.GetRadius() - depth, 0) ** 2, 0)
     triangles = vtk.vtkTriangleFilter()
     triangles.SetInputConnection(source.GetOutputPort())
-    inside = clip(triangles.GetOutputPort(), function, 0, inside_out=True)
-    return clip(inside.GetOutputPort(), function, -depth)
+    return clip(triangles.GetOutputPort(), function, 0, inside_out=True)
 
 
 def clip(port, function, value, inside_out=False):

@@ -260,7 +260,7 @@ def main(directory, work):
     def actors_for(data):
         return actors_of(data, name, table, upper, flat)
 
-    rigid = obstacles.read(directory)
+    rigid = obstacles.read(directory, time)
 
     def obstacles_behind(plane):
         return obstacles.make_actors(rigid, lower, upper_corner, flat, plane)

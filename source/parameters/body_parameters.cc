@@ -42,14 +42,15 @@ void declare_placement(Declarations &declarations, const DeclarationScope &scope
 void declare_material(Declarations &declarations, const DeclarationScope &scope, const std::string &path)
 {
   SubsectionDeclaration material(declarations, path, "The material of the body; plane strain in 2-D.");
-  material.add("Model", one_of(names_in(models())), "linear elastic", "",
-               "Small strain; compressible finite strain; or finite strain of which a part stays, once von "
-               "Mises' stress has "
-               "reached a yield stress. A body that rotates needs one of the latter two.");
+  material.add(
+      "Model", one_of(names_in(models())), "linear elastic", "",
+      "Small strain and small rotation; compressible finite strain; or finite strain of which a part "
+      "stays, once von Mises' stress has reached a yield stress. A body that rotates needs one of the "
+      "latter two. J2 plastic: not with 'Implicit', 'Adaptivity' or 'Exact solution'.");
   material.add_required("Young's modulus", positive_number(), "Pa", "Stiffness in uniaxial tension.");
   material.add_required("Poisson's ratio", number_between(-1., 0.5), "", "Transverse contraction.");
   material.add("Density", positive_number(), "", "kg/m³",
-               "Mass per undeformed volume; needed in explicit runs and with gravity.");
+               "Mass per undeformed volume; needed in motion ('Explicit', 'Implicit') and with gravity.");
   material.add(
       "Viscosity", positive_number(), "", "Pa s",
       "η: resistance 2η to the rate of the strain's deviator, beside the elastic stress (Kelvin-Voigt); "
@@ -57,15 +58,19 @@ void declare_material(Declarations &declarations, const DeclarationScope &scope,
   if (scope.chosen(path, "Model", "J2 plastic", "linear elastic"))
   {
     material.add_required("Yield stress", positive_number(), "Pa",
-                          "J2 plastic: stress in uniaxial tension (von Mises) at which it begins to yield.");
-    material.add("Hardening modulus", number_from_up_to(0., 1e30), "0", "Pa",
-                 "J2 plastic: by how much the yield stress grows with the equivalent plastic strain.");
+                          "J2 plastic: von Mises' stress at which it begins to yield, of Kirchhoff's stress: "
+                          "true stress times the ratio of the volumes, that belongs to logarithmic strain.");
+    material.add(
+        "Hardening modulus", number_from_up_to(0., 1e30), "0", "Pa",
+        "J2 plastic: by how much the yield stress grows with the equivalent plastic strain, which is "
+        "logarithmic.");
   }
 }
 
 void declare_motion(Declarations &declarations, const DeclarationScope &scope, const std::string &path)
 {
-  SubsectionDeclaration motion(declarations, path, "Rigid motion at time 0; explicit runs only.");
+  SubsectionDeclaration motion(declarations, path,
+                               "Rigid motion at time 0; in motion only ('Explicit', 'Implicit').");
   motion.add("Velocity", scope.vector(), scope.components("0, 0, 0"), "m/s",
              "Velocity of the centre of mass.");
   motion.add("Spin", scope.dimension == 3 ? scope.vector() : list_of(any_number(), 1, 1),

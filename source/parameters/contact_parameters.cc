@@ -110,6 +110,13 @@ std::vector<std::pair<std::string, std::string>> read_pairs(const SectionReader 
                              .expected("two of " + join(all, ", "))
                              .did_you_mean(nearest_name(name, all))
                              .advise("correct the name or remove the pair"));
+    if (std::any_of(pairs.begin(), pairs.end(),
+                    [&names](const auto &other) {
+                      return other == std::pair(names[0], names[1]) || other == std::pair(names[1], names[0]);
+                    }))
+      throw InputError(complain(fmt::format("'{}' stands in the list twice", pair))
+                           .expected("every pair once, in one order of its names")
+                           .advise("remove one of the two"));
     if (names[0] == names[1] || (is_in(names[0], obstacles) && is_in(names[1], obstacles)))
       throw InputError(complain(fmt::format("'{}' is never in contact", pair))
                            .expected("two different bodies, or a body and an obstacle")
@@ -124,11 +131,17 @@ std::vector<std::string> read_self_contact(const SectionReader &section,
 {
   const std::vector<std::string> names = split(section.value("Self-contact"), ',');
   for (const std::string &name : names)
+  {
     if (!is_in(name, bodies))
       throw InputError(section.complain("Self-contact", fmt::format("there is no body '{}'", name))
                            .expected("some of " + join(bodies, ", "))
                            .did_you_mean(nearest_name(name, bodies))
                            .advise("correct the name or remove it"));
+    if (std::count(names.begin(), names.end(), name) > 1)
+      throw InputError(section.complain("Self-contact", fmt::format("'{}' stands in the list twice", name))
+                           .expected("some of " + join(bodies, ", ") + ", each once")
+                           .advise("remove one of the two"));
+  }
   return names;
 }
 } // namespace
@@ -274,8 +287,10 @@ void declare_contact(Declarations &declarations, const DeclarationScope &scope)
   if (scope.includes("Contact/Friction"))
     SubsectionDeclaration(declarations, "Contact/Friction",
                           "Coulomb friction; not with the volume potential.")
-        .add_required("Friction coefficient", number_from(0.), "",
-                      "μ: most of the tangential traction over the pressure.");
+        .add_required(
+            "Friction coefficient", number_from_up_to(0., 10.), "",
+            "μ: most of the tangential traction over the pressure. Rubber hardly reaches 4: a larger "
+            "one than 10 would be a mistake; what never slides is one body.");
   if (scope.includes("Contact/Correction"))
   {
     SubsectionDeclaration correction(

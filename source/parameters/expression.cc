@@ -110,6 +110,17 @@ double Expression::value(const Triple &x, const double t) const
   return parser->value(dealii::Point<3>(x[0], x[1], x[2]));
 }
 
+const std::vector<std::string> &Expression::functions()
+{
+  static const std::vector<std::string> calls{
+      "if(t < 1, x, y)", "abs(x)",  "sign(x)", "min(x, y)", "max(x, y)", "sum(x, y)", "avg(x, y)",
+      "sqrt(x)",         "exp(x)",  "ln(x)",   "log(x)",    "log2(x)",   "log10(x)",  "pow(x, 2)",
+      "sin(x)",          "cos(x)",  "tan(x)",  "cot(x)",    "sec(x)",    "csc(x)",    "asin(x)",
+      "acos(x)",         "atan(x)", "sinh(x)", "cosh(x)",   "tanh(x)",   "asinh(x)",  "acosh(x)",
+      "atanh(x)",        "erf(x)",  "erfc(x)", "rint(x)",   "floor(x)",  "ceil(x)",   "int(x)"};
+  return calls;
+}
+
 bool Expression::uses(const std::string &variable) const
 {
   return std::regex_search(text, std::regex("\\b" + variable + "\\b"));

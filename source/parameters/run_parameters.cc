@@ -49,7 +49,7 @@ const std::vector<RunEntry<QuasiStaticParameters>> &quasi_static_entries()
        &Run::end_time},
       {"Load steps", integer_from(1, 1000000), "1", "", "Equal steps from time 0 to the end time.",
        &Run::load_steps},
-      {"Tolerance", number_above_up_to(0., 1e-2), "1e-9", "",
+      {"Tolerance", number_above_up_to(0., largest_newton_tolerance), "1e-9", "",
        "Largest residual force of any body, relative to the root of the sum of squares of that body's own "
        "forces; above 1e-2 Newton's method would stop before it has found which points touch.",
        &Run::tolerance},
@@ -88,7 +88,7 @@ const std::vector<RunEntry<ImplicitParameters>> &implicit_entries()
        "in the "
        "one before; longer steps are halved. 0: all steps are as long as 'Time step'.",
        &Run::step_tolerance},
-      {"Tolerance", number_above_up_to(0., 1e-2), "1e-9", "",
+      {"Tolerance", number_above_up_to(0., largest_newton_tolerance), "1e-9", "",
        "Largest residual force of any body, relative to the root of the sum of squares of that body's own "
        "forces.",
        &Run::tolerance},
@@ -310,7 +310,7 @@ void declare_output(Declarations &declarations, const DeclarationScope &scope)
   output.add("Number of fields", integer_from(0, 100000), is_study ? "0" : "10", "",
              "VTU files a run writes, beside the first; 0 by default in the runs of a 'Study'.");
   output.add("Number of statistics rows", integer_from(1, 100000000), "200", "",
-             "About how many rows of statistics.csv an explicit run writes.");
+             "About how many rows of statistics.csv a run in motion writes.");
 }
 
 OutputParameters read_output(const ParameterText &text, const Declarations &in_use)

@@ -3,7 +3,10 @@
 
 #include <deal.II/base/mpi.h>
 
+#include <Eigen/SVD>
+
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <type_traits>
 
@@ -238,6 +241,29 @@ std::vector<double> InternalForce<dim>::plastic_strains() const
         means[cell] /= std::accumulate(geometry.weights, geometry.weights + geometry.n_points, 0.);
       });
   return means;
+}
+
+template <int dim>
+std::vector<double> InternalForce<dim>::turns_taken_for_strain() const
+{
+  std::vector<double> largest(kernels.size(), 0.);
+  for_each_cell(
+      [&](auto &kernel, unsigned int cell, const CellGeometry &geometry, const double *u)
+      {
+        if constexpr (std::is_same_v<decltype(kernel), CellKernel<dim, LinearElastic<dim>> &>)
+        {
+          SpatialTensor<dim> gradient = SpatialTensor<dim>::Zero(); // of the deformation, times the volume
+          for (unsigned int q = 0; q < geometry.n_points; ++q)
+            gradient += geometry.weights[q] *
+                        (SpatialTensor<dim>::Identity() + displacement_gradient<dim>(geometry, q, u));
+          const Eigen::JacobiSVD<SpatialTensor<dim>> parts(gradient,
+                                                           Eigen::ComputeFullU | Eigen::ComputeFullV);
+          const double cosine = .5 * ((parts.matrixU() * parts.matrixV().transpose()).trace() - (dim - 2));
+          double &of_body = largest[discretization->cells.bodies[cell]];
+          of_body = std::max(of_body, std::acos(std::clamp(cosine, -1., 1.)));
+        }
+      });
+  return largest;
 }
 
 template <int dim>

@@ -32,6 +32,24 @@ SpatialVector<dim> ObstacleMotion<dim>::velocity(double t) const
   return (displacement(before + interval) - displacement(before)) / interval;
 }
 
+template <int dim>
+std::optional<ObstacleJump> ObstacleMotion<dim>::find_jump(double start, double end) const
+{
+  constexpr unsigned int n_halvings = 20;
+  constexpr double jump = 0.01; // of the way; that of a motion would be a millionth by then
+  const auto way = [this](double from, double to) { return (displacement(to) - displacement(from)).norm(); };
+  const double whole = way(start, end);
+  for (unsigned int i = 0; i < n_halvings; ++i)
+  {
+    const double middle = 0.5 * (start + end);
+    (way(start, middle) > way(middle, end) ? end : start) = middle;
+  }
+  const double size = way(start, end);
+  if (!(size > jump * whole))
+    return {};
+  return ObstacleJump{end, size};
+}
+
 template class ObstacleMotion<2>;
 template class ObstacleMotion<3>;
 } // namespace signorini

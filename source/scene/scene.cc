@@ -117,6 +117,21 @@ bool Scene<dim>::is_any_obstacle_moving() const
                      [](const ObstacleMotion<dim> &motion) { return !motion.is_fixed(); });
 }
 
+template <int dim>
+bool Scene<dim>::blame_jump(double start, double end, Complaint &fault) const
+{
+  for (unsigned int i = 0; i < obstacles.size(); ++i)
+    if (const std::optional<ObstacleJump> jump = obstacle_motions[i].find_jump(start, end))
+    {
+      fault.what += fmt::format(", for obstacle '{}' jumps by {:.3g} m at t = {:.6g}", obstacles[i]->name(),
+                                jump->size, jump->time);
+      fault.at(obstacle_motions[i].place())
+          .advise("let its Displacement grow from the one place to the other in a finite time");
+      return true;
+    }
+  return false;
+}
+
 template struct Scene<2>;
 template struct Scene<3>;
 template double evaluate<2>(const Expression &, const std::string &, const dealii::Point<2> &, double);

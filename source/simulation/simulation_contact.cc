@@ -316,7 +316,7 @@ double Simulation<dim>::limit_time_step(double time_step) const
     // A little less, as obstacles need not move evenly.
     step *= 0.99 * share;
   }
-  throw NumericalError(
+  Complaint fault =
       Complaint(fmt::format("bodies or obstacles move by {:.3g} m in one step at t = {:.6g}: they could pass "
                             "through each other unseen",
                             largest_motion(time_step), state.time))
@@ -324,7 +324,9 @@ double Simulation<dim>::limit_time_step(double time_step) const
               fmt::format("at most {} of the thinnest element, half body or half obstacle, {:.3g} m, or the "
                           "step is shortened, though not below {} of its length",
                           limit, thinnest, shortest))
-          .advise("check speeds, loads and units, or lower Explicit/Bulk step factor"));
+          .advise("check speeds, loads and units, or lower Explicit/Bulk step factor");
+  scene.blame_jump(state.time, state.time + time_step, fault);
+  throw NumericalError(fault);
 }
 
 template <int dim>

@@ -52,11 +52,13 @@ void Simulation<dim>::run_implicit(const ImplicitParameters &run)
     if (const std::optional<Complaint> fault = make_implicit_step(time_step, is_smallest))
     {
       if (is_smallest)
-        throw NumericalError(Complaint(fmt::format("no step of {:.3g} s and more leads beyond t = {:.6g}: {}",
-                                                   smallest_step, state.time, fault->what))
-                                 .at(fault->where)
-                                 .expected(fault->allowed)
-                                 .advise(fault->next_step));
+      {
+        Complaint end = *fault;
+        end.what = fmt::format("no step of {:.3g} s and more leads beyond t = {:.6g}: {}", smallest_step,
+                               state.time, fault->what);
+        scene.blame_jump(state.time, state.time + time_step, end);
+        throw NumericalError(end);
+      }
       step = 0.5 * time_step;
       continue;
     }

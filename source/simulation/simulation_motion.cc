@@ -149,6 +149,13 @@ void Simulation<dim>::record_motion(const MotionSolver<dim> &solver, double time
                             results.n_steps, state.time, time_step, results.contact.n_active,
                             results.contact.max_penetration_over_thickness, energy.residual()),
                 state.time / end);
+  check_ledger();
+}
+
+template <int dim>
+void Simulation<dim>::check_ledger() const
+{
+  const EnergyLedger &energy = results.energy;
   if (!std::isfinite(energy.kinetic + energy.elastic + energy.contact))
     throw NumericalError(
         Complaint(
@@ -158,13 +165,18 @@ void Simulation<dim>::record_motion(const MotionSolver<dim> &solver, double time
   const auto *implicit = std::get_if<ImplicitParameters>(&parameters.solver);
   const double tolerance = implicit ? implicit->ledger_tolerance
                                     : std::get<ExplicitParameters>(parameters.solver).ledger_tolerance;
-  if (!(std::abs(energy.residual()) <= tolerance))
-    throw NumericalError(
-        Complaint(fmt::format("the energy ledger does not close at t = {:.6g}", state.time))
-            .found(fmt::format("{:+.3g} of the largest energy", energy.residual()))
-            .expected(fmt::format("at most {}", tolerance))
-            .advise(implicit ? "lower Implicit/Time step, or refine"
-                             : "lower the step factors of 'Explicit' or Contact/Penalty factor, or refine"));
+  if (std::abs(energy.residual()) <= tolerance)
+    return;
+  Complaint fault =
+      Complaint(fmt::format("the energy ledger does not close at t = {:.6g}", state.time))
+          .found(fmt::format("{:+.3g} of the largest energy", energy.residual()))
+          .expected(fmt::format("at most {}", tolerance))
+          .advise(implicit ? "lower Implicit/Time step, or refine"
+                           : "lower the step factors of 'Explicit' or Contact/Penalty factor, or refine");
+  for (std::size_t row = results.history.size() - 1; row > 0; --row)
+    if (scene.blame_jump(results.history[row - 1].time, results.history[row].time, fault))
+      break;
+  throw NumericalError(fault);
 }
 
 template class Simulation<2>;

@@ -185,9 +185,13 @@ void Simulation<dim>::append_resultants(Statistics::Row &row) const
 template <int dim>
 void Simulation<dim>::append_bodies(Statistics::Row &row) const
 {
+  const std::vector<BodyRecord> &bodies = results.history.back().bodies; // and the obstacles after them
+  for (unsigned int i = 0; i < scene.obstacles.size(); ++i)
+    for (unsigned int d = 0; d < dim && !scene.obstacle_motions[i].is_fixed(); ++d)
+      row.emplace_back(fmt::format("displacement {} of {} [m]", "xyz"[d], scene.obstacles[i]->name()),
+                       bodies[scene.n_bodies() + i].displacement[d]);
   if (scene.n_bodies() > max_n_bodies_by_name)
     return;
-  const std::vector<BodyRecord> &bodies = results.history.back().bodies;
   for (unsigned int body = 0; body < scene.n_bodies(); ++body)
     for (unsigned int d = 0; d < dim; ++d)
       row.emplace_back(fmt::format("mean displacement {} of {} [m]", "xyz"[d], scene.body_names[body]),

@@ -10,6 +10,7 @@
 #include "signorini/parameters/mesh_parameters.h"
 #include "signorini/physics/mass.h"
 
+#include <deal.II/base/numbers.h>
 #include <deal.II/base/utilities.h>
 
 #include <fmt/core.h>
@@ -239,11 +240,33 @@ void Simulation<dim>::gather_results()
                                                               ? results.max_penetration_over_thickness
                                                               : std::numeric_limits<double>::infinity());
   warn_of_collisions();
+  warn_of_turns();
   constexpr double shallow = 0.1;
   if (results.max_penetration_over_thickness > shallow)
     warn(fmt::format("the largest penetration of the run, {:.3g} h, exceeds {} h: raise Contact/Penalty "
                      "factor or refine",
                      results.max_penetration_over_thickness, shallow));
+}
+
+template <int dim>
+void Simulation<dim>::warn_of_turns()
+{
+  constexpr double small_angle = 0.05, small_drift = 0.01;
+  std::vector<double> turns = forces.elasticity->turns_taken_for_strain();
+  dealii::Utilities::MPI::max(turns, communicator, turns);
+  const auto largest = std::max_element(turns.begin(), turns.end());
+  if (*largest == 0. || (*largest <= small_angle && results.max_angular_drift <= small_drift))
+    return;
+  const std::string drift =
+      results.has_ledger
+          ? fmt::format(", and its moments do not balance (drift of the angular momentum {:.1e})",
+                        results.max_angular_drift)
+          : "";
+  warn(fmt::format(
+      "body '{}' is turned by up to {:.2g} degrees, which the linear elastic law takes for a strain "
+      "of {:.1e}{}: set Model = neo-Hookean in its Material",
+      scene.body_names[largest - turns.begin()], *largest * 180. / dealii::numbers::PI,
+      1. - std::cos(*largest), drift));
 }
 
 template <int dim>

@@ -2,6 +2,7 @@
 #include "signorini/solvers/quasi_static_solver.h"
 
 #include "signorini/base/exceptions.h"
+#include "signorini/parameters/run_parameters.h"
 #include "signorini/physics/mass.h"
 
 #include <fmt/core.h>
@@ -224,9 +225,15 @@ void QuasiStaticSolver<dim>::move_supports(double time, State &state)
   const double old_time = state.time;
   state.time = time;
   const bool do_supports_move = make_constraints(old_time, time);
-  for (const ObstacleMotion<dim> &motion : scene->obstacle_motions)
+  for (unsigned int i = 0; i < scene->obstacles.size(); ++i)
+  {
+    const ObstacleMotion<dim> &motion = scene->obstacle_motions[i];
     if ((motion.displacement(time) - motion.displacement(old_time)).norm() > 3. * longest_step)
-      throw NumericalError("an obstacle moves so far in one step that it could pass through surfaces");
+      throw NumericalError(
+          Complaint(fmt::format("obstacle '{}' moves so far in one step that it could pass through surfaces",
+                                scene->obstacles[i]->name()))
+              .advise("use more load steps, unless its Displacement jumps: let it grow with t"));
+  }
   balance.compute(state);
   if (!do_supports_move)
     return;
@@ -326,11 +333,13 @@ void QuasiStaticSolver<dim>::give_up(const std::string &why, const std::string &
                               fmt::join(net_force.data(), net_force.data() + dim, ", ")))
             .advise(forces->frictions.empty() ? "add a support: contact without friction lets bodies slide"
                                               : "add a support, or press harder: the body slides"));
-  if (balance.round_off_share(body) > parameters.tolerance)
+  if (const double share = balance.round_off_share(body); share > parameters.tolerance)
     throw NumericalError(
-        Complaint(fmt::format("{}, where round-off alone may be {:.1g} of the forces", what,
-                              balance.round_off_share(body)))
-            .advise("lower Contact/Penalty factor, or raise Quasi-static/Tolerance above that share"));
+        Complaint(fmt::format("{}, where round-off alone may be {:.1g} of the forces", what, share))
+            .advise(
+                share < largest_newton_tolerance
+                    ? "lower Contact/Penalty factor, or raise Tolerance above that share"
+                    : "lower Contact/Penalty factor; no Tolerance that is allowed lies above that share"));
   throw NumericalError(Complaint(what).advise(advice));
 }
 

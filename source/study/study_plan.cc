@@ -146,6 +146,29 @@ void estimate_cost(StudyRun &run, const StudyParameters &study, const unsigned i
     if (factor == Factor::step_factor)
       run.cost /= parse_number(value).value();
 }
+
+/// The parameters of a run. A fault of a value is told by its list and its place there.
+Parameters read_run(const StudyRun &run, const ParameterText &file, const StudyParameters &study)
+{
+  try
+  {
+    return read_parameters(run.text);
+  }
+  catch (const InputError &error)
+  {
+    Complaint complaint = error.complaint();
+    std::string origin = fmt::format("run {} of the study", settings_name(run.settings));
+    for (const auto &[factor, value] : run.settings)
+      if (const std::string &key = study_key(factor); complaint.where == file.find("Study", key)->where())
+      {
+        const std::vector<std::string> &values = study.values.at(factor);
+        origin = fmt::format("value {} of 'Study/{}', {}",
+                             1 + std::find(values.begin(), values.end(), value) - values.begin(), key, value);
+      }
+    complaint.what = origin + ": " + complaint.what;
+    throw InputError(complaint);
+  }
+}
 } // namespace
 
 std::string factor_name(const Factor factor)
@@ -212,7 +235,7 @@ std::vector<StudyRun> plan_study(const ParameterText &text, const Parameters &pa
       run.parameters.output.directory = directory;
     };
     write_into(runs_directory + run.name());
-    run.parameters = read_parameters(run.text);
+    run.parameters = read_run(run, text, study);
     estimate_cost(run, study, n_ranks);
     for (; run.repeat <= study.n_repeats; ++run.repeat)
     {

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // What holds for friction in an implicit step, where slips are linear in the positions.
-#include "signorini/contact/friction/friction.h"
-
-#include "law_suites.h"
+#include "rubbing.h"
 
 using namespace signorini;
 using namespace signorini::contact;
@@ -46,20 +44,13 @@ struct RubbingStep
     friction.follow();
   }
 
-  Positions<dim> forces() const
-  {
-    Positions<dim> all = scene.zeros();
-    friction.add_forces(all);
-    return all;
-  }
+  Positions<dim> forces() const { return compute_forces(friction, start.size()); }
 
   PotentialScene<dim> scene;
   Positions<dim> start;
   ContactPotential<dim> potential;
   Friction<dim> friction;
 };
-
-constexpr double never_slides = 1e6; // coefficient of friction
 
 TEST_P(StepLaws, TractionsHaveNoMomentAboutTheStart)
 {

@@ -32,9 +32,7 @@ Positions<dim> close(const VoxelSurface<dim> &c, double overlap)
   return c.positions(
       [overlap](const auto &lattice)
       {
-        SpatialVector<dim> x;
-        for (unsigned int d = 0; d < dim; ++d)
-          x[d] = lattice[d];
+        SpatialVector<dim> x = lattice_point<dim>(lattice);
         if (lattice[dim - 1] > 1)
           x[dim - 1] -= (1. + overlap) * std::min(1., .5 * std::max(0., x[0] - 1.));
         return x;
@@ -107,9 +105,7 @@ TYPED_TEST(SelfContact, SlitsClose)
   auto slit = make_c<dim>(8);
   slit.place = [](const auto &lattice)
   {
-    SpatialVector<dim> x;
-    for (unsigned int d = 0; d < dim; ++d)
-      x[d] = lattice[d];
+    SpatialVector<dim> x = lattice_point<dim>(lattice);
     x[dim - 1] -= lattice[dim - 1] > 1 ? 1. - 1e-6 : 0.;
     return x;
   };
@@ -249,9 +245,7 @@ TYPED_TEST(SelfContact, ForcesAndTangentAreDerivativesWhereNodesAreShared)
   auto c = make_c<dim>(4);
   c.place = [](const auto &lattice)
   {
-    SpatialVector<dim> x;
-    for (unsigned int d = 0; d < dim; ++d)
-      x[d] = lattice[d];
+    SpatialVector<dim> x = lattice_point<dim>(lattice);
     x[dim - 1] -= lattice[dim - 1] > 1 ? 1. - .1 * std::max(0., x[0] - 1.) : 0.;
     return x;
   };

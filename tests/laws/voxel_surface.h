@@ -7,6 +7,16 @@
 
 namespace signorini::test
 {
+/// A point of a lattice of unit cells.
+template <int dim>
+SpatialVector<dim> lattice_point(const std::array<unsigned int, dim> &lattice)
+{
+  SpatialVector<dim> x;
+  for (unsigned int d = 0; d < dim; ++d)
+    x[d] = lattice[d];
+  return x;
+}
+
 /// A body of cells out of a lattice of n × n (× n), in a shape of its own.
 template <int dim>
 struct VoxelBody
@@ -17,13 +27,7 @@ struct VoxelBody
   FacetType type = FacetType::tensor_product; ///< in 3-D a side of a cell may be two triangles
   std::function<bool(const Lattice &)> is_filled;
   /// Where a point of the lattice lies in the undeformed body; cells must not be turned inside out.
-  std::function<SpatialVector<dim>(const Lattice &)> place = [](const Lattice &lattice)
-  {
-    SpatialVector<dim> x;
-    for (unsigned int d = 0; d < dim; ++d)
-      x[d] = lattice[d];
-    return x;
-  };
+  std::function<SpatialVector<dim>(const Lattice &)> place = lattice_point<dim>;
 };
 
 /// The faces between cells that are filled and others; of degree 1.

@@ -76,6 +76,21 @@ class DirectoryTest(ProgramTest):
         self.assertIn("at 0.5 of an element the run will stop", on_the_way)
         self.assertIn("raise Contact/Penalty factor or refine", at_the_end)
 
+    def test_a_linear_body_that_turns_is_warned_of(self):
+        turned = pathlib.Path(self.folder.name) / "turned.prm"
+        turned.write_text("""set Dimension = 2\nset Bodies = block
+            subsection Body block
+              subsection Mesh\nend
+              subsection Material\nset Young's modulus = 1e6\nset Poisson's ratio = 0.3\nend
+              subsection Support bottom\nset x = (cos(0.2*t) - 1)*x\nset y = sin(0.2*t)*x\nend
+            end
+            subsection Quasi-static\nend""", encoding="utf-8")
+        for model, warnings in (("linear elastic", 1), ("neo-Hookean", 0)):
+            done = self.run_program(turned, "--set", f"Body block/Material/Model={model}")
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertEqual(len(self.summary()["warnings"]), warnings)
+            self.assertEqual("body 'block' is turned by up to 1" in done.stdout, warnings == 1, done.stdout)
+
     def test_a_mesh_in_pieces_is_warned_of(self):
         mesh = pathlib.Path(self.folder.name) / "pieces.inp"
         mesh.write_text("*NODE\n1, 0, 0, 0\n2, 1, 0, 0\n3, 0, 1, 0\n4, 0, 0, 1\n"

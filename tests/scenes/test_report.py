@@ -59,6 +59,12 @@ class ReportTest(unittest.TestCase):
         (self.path / "summary.json").unlink()
         self.assertEqual(self.report().returncode, 3)
 
+    def test_every_energy_of_the_ledger_is_drawn(self):
+        drawn = (ROOT / "scripts/report_parts/curves.py").read_text(encoding="utf-8")
+        drawn = drawn[drawn.index("\nHELD = "):drawn.index("\ndef energy_ledger")]
+        written = (ROOT / "source/simulation/simulation_motion.cc").read_text(encoding="utf-8")
+        self.assertEqual(set(re.findall(r'"([^"]+)"', drawn)), set(re.findall(r'joules\("([^"]+)"\)', written)))
+
     def test_a_later_run_removes_the_pictures_by_their_names(self):
         made = {"scene"}
         for part in ("curves", "study_curves"):

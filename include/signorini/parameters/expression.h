@@ -5,6 +5,7 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 namespace dealii
 {
@@ -31,6 +32,9 @@ public:
   bool uses(const std::string &variable) const;
 
   const std::string &formula() const { return text; }
+
+  /// A call of every function that formulas may use, for the manual.
+  static const std::vector<std::string> &functions();
 
 private:
   std::string text;

@@ -9,6 +9,10 @@
 
 namespace signorini
 {
+/// Most that may be asked of 'Tolerance': beyond it Newton's method would stop before it has found which
+/// points touch.
+inline constexpr double largest_newton_tolerance = 1e-2;
+
 /// Declare `Quasi-static`, `Explicit` and `Implicit`.
 void declare_solver(Declarations &declarations, const DeclarationScope &scope);
 

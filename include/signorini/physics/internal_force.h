@@ -49,6 +49,10 @@ public:
   /// Mean equivalent plastic strain of every own cell; 0 in bodies that do not yield.
   std::vector<double> plastic_strains() const;
 
+  /// The largest rotation of any own cell, its mean, of each body whose law takes it for a strain [rad]; 0 of
+  /// the others.
+  std::vector<double> turns_taken_for_strain() const;
+
   /// Whether the tangent depends on the deformation.
   bool is_nonlinear() const;
 

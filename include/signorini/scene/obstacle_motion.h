@@ -4,11 +4,19 @@
 #include "signorini/base/spatial_vector.h"
 #include "signorini/parameters/expression.h"
 
+#include <optional>
 #include <string>
 #include <vector>
 
 namespace signorini
 {
+/// A displacement that is another one from one moment to the next.
+struct ObstacleJump
+{
+  double time; ///< [s]
+  double size; ///< [m]
+};
+
 /// How an obstacle moves as a whole from the place it is given at, whatever touches it.
 template <int dim>
 class ObstacleMotion
@@ -26,6 +34,13 @@ public:
   /// From the displacements at t and a millionth of the run before [m/s]: of the formula alone, so it does
   /// not depend on steps, and knows nothing of a mesh that has changed.
   SpatialVector<dim> velocity(double t) const;
+
+  /// The largest jump between two times, if there is one that is more than a hundredth of the way between
+  /// them.
+  std::optional<ObstacleJump> find_jump(double start, double end) const;
+
+  /// File, line and name, for messages.
+  const std::string &place() const { return description; }
 
 private:
   std::vector<Expression> formulas;

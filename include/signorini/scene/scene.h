@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
+#include "signorini/base/exceptions.h"
 #include "signorini/parameters/expression.h"
 #include "signorini/parameters/parameters.h"
 #include "signorini/scene/obstacle.h"
@@ -52,6 +53,8 @@ struct Scene
 
   unsigned int n_bodies() const { return static_cast<unsigned int>(body_names.size()); }
   bool is_any_obstacle_moving() const;
+  /// Blames an obstacle that jumps between two times for the fault, if there is one; whether there is.
+  bool blame_jump(double start, double end, Complaint &fault) const;
 };
 
 /// Value of a formula at a point and a time. Throws InputError, with `description`, if it is not finite.

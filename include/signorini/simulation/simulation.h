@@ -74,6 +74,8 @@ private:
   /// Rows and fields are written by the first step that reaches their time: outputs do not shape the steps.
   void record_when_due(MotionSolver<dim> &solver, double time_step, double end_time);
   void record_motion(const MotionSolver<dim> &solver, double time_step, double end_time);
+  /// Throws NumericalError for an energy that is no number, and for a ledger that does not close.
+  void check_ledger() const;
   void make_explicit_solver();
   /// Whether the contact forces of every step are solved for.
   bool has_implicit_contact() const;
@@ -138,6 +140,8 @@ private:
   void gather_nodal_pressures();
   void gather_extremes();
   void print_results();
+  /// Of a body that has turned though its law is not made for that.
+  void warn_of_turns();
   /// Of the first in which two passed through each other.
   void warn_of_collisions();
   void print_collisions();

@@ -19,6 +19,18 @@ TEST(Expression, HasSpaceTimeAndPi)
   EXPECT_DOUBLE_EQ(Expression("if(t >= 1, max(x, 2), -1)").value({}, 1.), 2.);
 }
 
+TEST(Expression, KnowsTheFunctionsOfTheManual)
+{
+  for (const std::string &call : Expression::functions())
+    EXPECT_TRUE(std::isfinite(Expression(call).value({.5, .5, 0.}, 0.)) ||
+                std::isfinite(Expression(call).value({2., .5, 0.}, 0.)))
+        << call;
+  EXPECT_DOUBLE_EQ(Expression("log(exp(2))").value({}, 0.), 2.);
+  EXPECT_DOUBLE_EQ(Expression("t > 1 && x <= 0 || y != 0 ? 2^3 : -1").value({0., 0., 0.}, 2.), 8.);
+  for (const std::string formula : {"PI", "1,5", "unknown(x)"})
+    EXPECT_THROW(Expression{formula}, InputError) << formula;
+}
+
 TEST(Expression, RefusesWhatWouldBeMisread)
 {
   for (const std::string formula :

@@ -108,6 +108,23 @@ TYPED_TEST(InternalForces, NeoHookeanEnergyDoesNotSeeRigidMotion)
   EXPECT_NEAR(built.energy_of(*built.forces.elasticity, turned), energy, 1e-11 * energy);
 }
 
+TYPED_TEST(InternalForces, TurnsOfLinearBodiesAreTold)
+{
+  constexpr int dim = TypeParam::dim;
+  constexpr double angle = .3;
+  const SpatialTensor<dim> turned_stretch =
+      Eigen::AngleAxisd(angle, Eigen::Vector3d(0., 0., 1.)).toRotationMatrix().topLeftCorner<dim, dim>() *
+      1.2;
+  BuiltScene<dim> built(make_bodies<dim>(Model::neo_hookean, Model::linear_elastic), TypeParam::degree);
+  const Vector u = built.interpolate([&](const SpatialVector<dim> &x)
+                                     { return SpatialVector<dim>(turned_stretch * x - x); });
+  built.energy_of(*built.forces.elasticity, u);
+  const std::vector<double> turns = built.forces.elasticity->turns_taken_for_strain();
+  EXPECT_EQ(turns.at(0), 0.);
+  EXPECT_NEAR(turns.at(1), angle, 1e-10);
+  EXPECT_NEAR(turns.at(2), angle, 1e-10);
+}
+
 TYPED_TEST(InternalForces, LinearDisplacementGivesOneStress)
 {
   constexpr int dim = TypeParam::dim;

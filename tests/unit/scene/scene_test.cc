@@ -62,3 +62,17 @@ TEST(Scene, NamesTheLineOfAFormulaThatFailsDuringTheRun)
   EXPECT_NE(of_load.find("scene.prm:15: Body block/Load top/Traction is infinite"), std::string::npos)
       << of_load;
 }
+
+TEST(Scene, TellsAJumpOfAnObstacleFromAMotion)
+{
+  const auto find = [](const std::string &formula, double start, double end) {
+    return ObstacleMotion<2>({formula, "0"}, "place", 1.).find_jump(start, end);
+  };
+  for (const std::string motion : {"0", "5*t", "sqrt(t)", "if(t < 0.5, 0, 1e3*(t - 0.5))", "sin(40*t)"})
+    EXPECT_FALSE(find(motion, 0.3, 0.6)) << motion;
+  const auto jump = find("t + if(t < 0.47, 0, 0.1)", 0.3, 0.6);
+  ASSERT_TRUE(jump);
+  EXPECT_NEAR(jump->time, 0.47, 1e-6);
+  EXPECT_NEAR(jump->size, 0.1, 1e-6);
+  EXPECT_FALSE(find("t + if(t < 0.47, 0, 0.1)", 0.5, 0.6));
+}
