@@ -16,6 +16,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace signorini
 {
@@ -169,6 +170,12 @@ void Simulation<dim>::estimate_error()
   largest_energy = std::max(largest_energy, estimate.energy);
   if (estimate.energy + estimate.discretization <= std::max(1e-8 * largest_energy, 1e-20 * stiffness))
     estimate.forget_errors();
+  if (estimate.is_any_contact_unseen && !parameters.adaptivity && !std::exchange(has_warned_of_unseen, true))
+    warn(fmt::format(
+        "at t = {:.6g} a corner or an edge lies in what it touches, by more than a hundredth of an "
+        "element, where no quadrature point feels it: raise Contact/Quadrature points, or refine "
+        "there",
+        state.time));
 }
 
 template <int dim>

@@ -175,7 +175,7 @@ private:
   unsigned int next_adaptation_step = 0;     ///< explicit runs: the mesh is adapted before this step,
   double next_adaptation_time = 0.;          ///< and before this time, to which contact has been foreseen [s]
   unsigned int next_row = 1, next_field = 1; ///< runs in motion: of those that 'Output' asks for
-  bool has_warned_of_depth = false;
+  bool has_warned_of_depth = false, has_warned_of_unseen = false;
   double time_of_fields = 0.; ///< runs in motion: at which the last ones were written [s]
   std::unique_ptr<Fields<dim>> fields;
   std::unique_ptr<Statistics> statistics; ///< on rank 0
