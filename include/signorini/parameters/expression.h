@@ -16,7 +16,7 @@ class FunctionParser;
 namespace signorini
 {
 /// A muParser formula of x, y, z and t, with the constant pi and deal.II's additional functions (if, pow,
-/// erf, …). Not safe to share between threads.
+/// erfc, …). Not safe to share between threads.
 class Expression
 {
 public:
