@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "built_scene.h"
+
+#include "signorini/base/exceptions.h"
+
+using namespace signorini;
+using namespace signorini::test;
+
+namespace
+{
+template <typename Case>
+class RestoredMeshOnRanks : public testing::Test
+{
+protected:
+  static constexpr int dim = Case::dim;
+
+  static Parameters make_parameters(unsigned int n_cells)
+  {
+    Parameters parameters;
+    parameters.dimension = dim;
+    parameters.degree = Case::degree;
+    parameters.bodies = {make_box("one", {1., 1., 1.}, {n_cells, n_cells, n_cells}),
+                         make_box("other", {1., 1., 1.}, {1, 1, 1})};
+    parameters.bodies[1].mesh.refinements = 1;
+    parameters.bodies[1].placement.shift = {2., 0., 0.};
+    return parameters;
+  }
+
+  /// Refines and coarsens by cells' places, so that no cell is where it was first made.
+  static void adapt(unsigned int round, Discretization<dim> &discretization)
+  {
+    for (const auto &cell : discretization.hexahedra->mesh.active_cell_iterators())
+    {
+      if (!cell->is_locally_owned())
+        continue;
+      const double chance = std::sin(12.9898 * cell->center()[0] + 78.233 * cell->center()[dim - 1] + round);
+      if (chance > .4 && cell->level() < 3)
+        cell->set_refine_flag();
+      else if (cell->level() > 0 && std::sin(37. * cell->parent()->center()[0] + round) < 0.)
+        cell->set_coarsen_flag();
+    }
+    discretization.adapt({});
+    std::vector<unsigned int> weights(discretization.cells.n_cells, 1);
+    if (dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0)
+      weights.assign(weights.size(), 4);
+    discretization.balance(weights, {});
+  }
+};
+TYPED_TEST_SUITE(RestoredMeshOnRanks, AllCases);
+
+TYPED_TEST(RestoredMeshOnRanks, IsNumberedAsTheOneThatWasAdaptedInManySteps)
+{
+  constexpr int dim = TestFixture::dim;
+  Discretization<dim> adapted(this->make_parameters(2), MPI_COMM_WORLD);
+  Discretization<dim> restored(this->make_parameters(2), MPI_COMM_WORLD);
+  const unsigned int n_cells_of_file = adapted.n_cells();
+  for (unsigned int round = 0; round < 4; ++round)
+    this->adapt(round, adapted);
+  EXPECT_NE(adapted.n_cells(), n_cells_of_file);
+  restored.restore(adapted.hexahedron_ids());
+  EXPECT_EQ(restored.hexahedron_ids(), adapted.hexahedron_ids());
+  EXPECT_EQ(restored.owned_dofs, adapted.owned_dofs);
+  EXPECT_EQ(restored.cells.dofs, adapted.cells.dofs);
+  EXPECT_EQ(restored.cells.bodies, adapted.cells.bodies);
+  for (unsigned int i = 0; i < adapted.node_positions.locally_owned_size(); ++i)
+    ASSERT_NEAR(restored.node_positions.local_element(i), adapted.node_positions.local_element(i), 1e-14);
+}
+
+TYPED_TEST(RestoredMeshOnRanks, OfAnotherCoarseMeshIsRefused)
+{
+  constexpr int dim = TestFixture::dim;
+  const Discretization<dim> finer(this->make_parameters(3), MPI_COMM_WORLD);
+  Discretization<dim> other(this->make_parameters(2), MPI_COMM_WORLD);
+  EXPECT_THROW(other.restore(finer.hexahedron_ids()), FileError);
+}
+} // namespace
