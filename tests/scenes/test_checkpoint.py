@@ -4,7 +4,6 @@
 import csv
 import os
 import pathlib
-import resource
 import shutil
 import signal
 import subprocess
@@ -59,6 +58,10 @@ class StoppedRunTest(ProgramTest):
             rows = list(csv.reader(file))
         return rows[0], [[float(value) for value in row] for row in rows[1:]]
 
+    def fields(self):
+        text = (self.path / "solution.pvd").read_text(encoding="utf-8")
+        return [line for line in text.splitlines() if "DataSet" in line]
+
     def check_same(self, one, other, name):
         (heads, rows), (other_heads, other_rows) = one, other
         self.assertEqual(heads, other_heads, name)
@@ -75,16 +78,16 @@ class StoppedRunTest(ProgramTest):
         whole = self.run_on(n_ranks, file, *options)
         self.assertEqual(whole.returncode, 0, whole.stderr)
         statistics, summary = self.statistics(), self.summary()
-        fields = (self.path / "solution.pvd").read_text()
+        fields = self.fields()
         shutil.rmtree(self.path)
-        message = self.stop(signal.SIGTERM, len(statistics[1]) // 2, n_ranks, file, *options, *SAVED)
+        message = self.stop(signal.SIGTERM, 2 * len(statistics[1]) // 3, n_ranks, file, *options, *SAVED)
         self.assertIn("--resume", message)
         self.assertEqual(self.summary()["status"], "interrupted")
         resumed = self.run_on(n_ranks, file, *options, *SAVED, "--resume")
         self.assertEqual(resumed.returncode, 0, resumed.stderr)
         self.assertIn("Resumed from", resumed.stdout)
         self.check_same(statistics, self.statistics(), file)
-        self.assertEqual((self.path / "solution.pvd").read_text(), fields)
+        self.assertEqual(self.fields(), fields)
         end = self.summary()
         self.assertEqual(end["status"], "ok")
         for section in ("energy", "momentum", "contact"):
@@ -120,8 +123,8 @@ class ResumeTest(StoppedRunTest):
         self.check_resumed(SCENES / "adaptive_friction.prm", "--set", "Explicit/End time=0.1")
 
     def test_adaptive_equilibria(self):
-        self.check_resumed(SCENES / "adaptive_ball.prm", "--set", "Quasi-static/Load steps=6",
-                           "--set", "Adaptivity/Maximum cycles=3")
+        self.check_resumed(SCENES / "adaptive_ball.prm", "--set", "Quasi-static/Load steps=2",
+                           "--set", "Adaptivity/Maximum cycles=2")
 
     def test_two_ranks(self):
         self.check_resumed(VALIDATION / "incline.prm", "--set", "Explicit/End time=0.3", n_ranks=2)
@@ -211,16 +214,11 @@ class DamageTest(StoppedRunTest):
 
     def test_a_full_disk_loses_nothing(self):
         last = (self.path / "checkpoint/last").read_bytes()
-        size = self.files[0].stat().st_size // 2
-
-        def limit():
-            signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
-            resource.setrlimit(resource.RLIMIT_FSIZE, (size, size))
-
-        full = subprocess.run(self.command(BAR, *STEPS, *SAVED_EACH_STEP, "--resume"), capture_output=True, text=True,
-                              check=False, preexec_fn=limit, restore_signals=False)
+        self.files[1].unlink()
+        self.files[1].symlink_to("/dev/full")
+        full = self.resume(*SAVED_EACH_STEP)
         self.assertEqual(full.returncode, 3, full.stderr)
-        self.assertIn("cannot write the checkpoint", full.stderr)
+        self.assertIn("cannot write the checkpoint: No space left on device", full.stderr)
         self.assertEqual((self.path / "checkpoint/last").read_bytes(), last)
         done = self.resume()
         self.assertEqual(done.returncode, 0, done.stderr)
