@@ -130,7 +130,7 @@ class ResumeTest(StoppedRunTest):
         self.check_resumed(VALIDATION / "incline.prm", "--set", "Explicit/End time=0.3", n_ranks=2)
 
     def test_adaptive_friction_on_two_ranks(self):
-        self.check_resumed(SCENES / "adaptive_friction.prm", "--set", "Explicit/End time=0.1", n_ranks=2)
+        self.check_resumed(SCENES / "adaptive_friction.prm", "--set", "Explicit/End time=0.04", n_ranks=2)
 
     def test_moving_obstacle(self):
         self.check_resumed(SCENES / "conveyor.prm")

@@ -50,9 +50,9 @@ TYPED_TEST_SUITE(RestoredMeshOnRanks, AllCases);
 
 TYPED_TEST(RestoredMeshOnRanks, IsNumberedAsTheOneThatWasAdaptedInManySteps)
 {
-  constexpr int dim = TestFixture::dim;
-  Discretization<dim> adapted(this->make_parameters(2), MPI_COMM_WORLD);
-  Discretization<dim> restored(this->make_parameters(2), MPI_COMM_WORLD);
+  using Meshes = Discretization<TestFixture::dim>;
+  Meshes adapted(this->make_parameters(2), MPI_COMM_WORLD);
+  Meshes restored(this->make_parameters(2), MPI_COMM_WORLD);
   const unsigned int n_cells_of_file = adapted.n_cells();
   for (unsigned int round = 0; round < 4; ++round)
     this->adapt(round, adapted);
@@ -68,9 +68,9 @@ TYPED_TEST(RestoredMeshOnRanks, IsNumberedAsTheOneThatWasAdaptedInManySteps)
 
 TYPED_TEST(RestoredMeshOnRanks, OfAnotherCoarseMeshIsRefused)
 {
-  constexpr int dim = TestFixture::dim;
-  const Discretization<dim> finer(this->make_parameters(3), MPI_COMM_WORLD);
-  Discretization<dim> other(this->make_parameters(2), MPI_COMM_WORLD);
+  using Meshes = Discretization<TestFixture::dim>;
+  const Meshes finer(this->make_parameters(3), MPI_COMM_WORLD);
+  Meshes other(this->make_parameters(2), MPI_COMM_WORLD);
   EXPECT_THROW(other.restore(finer.hexahedron_ids()), FileError);
 }
 } // namespace
