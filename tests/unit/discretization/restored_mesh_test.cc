@@ -73,4 +73,44 @@ TYPED_TEST(RestoredMeshOnRanks, OfAnotherCoarseMeshIsRefused)
   Meshes other(this->make_parameters(2), MPI_COMM_WORLD);
   EXPECT_THROW(other.restore(finer.hexahedron_ids()), FileError);
 }
+
+TYPED_TEST(RestoredMeshOnRanks, MayHaveAFamilyOnTwoRanks)
+{
+  using Meshes = Discretization<TestFixture::dim>;
+  Parameters parameters = this->make_parameters(1);
+  parameters.bodies.pop_back();
+  parameters.bodies[0].mesh.refinements = 2;
+  constexpr unsigned int n = 1u << TestFixture::dim; // cells of a family
+  const auto way_of = [](const auto &cell)
+  {
+    const dealii::CellId id = cell->id();
+    const auto way = id.get_child_indices();
+    return std::vector<unsigned int>(way.begin(), way.end());
+  };
+  // The first family is divided while one of its cells is refined, and complete again afterwards.
+  Meshes adapted(parameters, MPI_COMM_WORLD);
+  for (const auto &cell : adapted.hexahedra->own_cells())
+    if (way_of(cell) == std::vector<unsigned int>{0, 0})
+      cell->set_refine_flag();
+  adapted.adapt({});
+  std::vector<unsigned int> weights;
+  for (const auto &cell : adapted.hexahedra->own_cells())
+    weights.push_back(way_of(cell) == std::vector<unsigned int>{0, n / 2 - 1} ? n * (n - 1) - n + 2 : 1);
+  adapted.balance(weights, {});
+  for (const auto &cell : adapted.hexahedra->own_cells())
+    if (cell->level() == 3)
+      cell->set_coarsen_flag();
+  adapted.adapt({});
+  unsigned int n_own = 0;
+  for (const auto &cell : adapted.hexahedra->own_cells())
+    n_own += way_of(cell).at(0) == 0;
+  const unsigned int n_ranks = dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD);
+  if (n_ranks == 2)
+  {
+    EXPECT_EQ(n_own, n / 2);
+  }
+  Meshes restored(parameters, MPI_COMM_WORLD);
+  restored.restore(adapted.hexahedron_ids());
+  EXPECT_EQ(restored.cells.dofs, adapted.cells.dofs);
+}
 } // namespace
