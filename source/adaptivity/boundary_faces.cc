@@ -20,10 +20,8 @@ void collect_of_part(const MeshPart<dim> &part, std::vector<BoundaryFace<dim>> &
                                    dealii::update_values | dealii::update_normal_vectors |
                                        dealii::update_quadrature_points);
   unsigned int own_cell = part.first_cell;
-  for (const auto &cell : part.dof_handler.active_cell_iterators())
+  for (const auto &cell : part.own_cells())
   {
-    if (!cell->is_locally_owned())
-      continue;
     for (const unsigned int f : cell->face_indices())
       if (cell->face(f)->at_boundary())
       {

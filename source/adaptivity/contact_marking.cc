@@ -16,16 +16,6 @@ template <int dim>
 using Cell = typename dealii::DoFHandler<dim>::active_cell_iterator;
 
 template <int dim>
-std::vector<Cell<dim>> collect_own_hexahedra(const Discretization<dim> &discretization)
-{
-  std::vector<Cell<dim>> cells;
-  for (const auto &cell : discretization.hexahedra->dof_handler.active_cell_iterators())
-    if (cell->is_locally_owned())
-      cells.push_back(cell);
-  return cells;
-}
-
-template <int dim>
 int level_to_be(const Cell<dim> &cell)
 {
   return cell->level() + (cell->refine_flag_set() ? 1 : 0) - (cell->coarsen_flag_set() ? 1 : 0);
@@ -89,7 +79,7 @@ void level_curved_contact(const std::vector<BoundaryFace<dim>> &all_faces,
   const bool is_straight = discretization.degree == 1;
   const double tolerance = is_straight ? 0.1 : 0.05, pressure_of_kink = is_straight ? penalty_factor : 4.;
   const ContactSurface<dim> &surface = map.surface();
-  const std::vector<Cell<dim>> cells = collect_own_hexahedra(discretization);
+  const std::vector<Cell<dim>> &cells = discretization.hexahedra->own_cells();
   std::vector<BoundaryFace<dim>> faces; // of the hexahedra, which come first among the cells
   std::copy_if(all_faces.begin(), all_faces.end(), std::back_inserter(faces),
                [&](const BoundaryFace<dim> &face) { return face.cell < cells.size(); });

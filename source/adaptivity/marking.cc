@@ -11,17 +11,16 @@ void mark_cells(const ErrorEstimate &estimate, const AdaptivityParameters &param
 {
   const ErrorClasses errors(estimate, parameters, discretization.communicator());
   unsigned int own_cell = 0; // hexahedra come first
-  for (const auto &cell : discretization.hexahedra->mesh.active_cell_iterators())
-    if (cell->is_locally_owned())
-    {
-      const double squared = estimate.cell_discretization[own_cell];
-      // Without contact the solution says nothing of errors yet.
-      if (estimate.is_any_contact_unseen ? estimate.is_contact_unseen[own_cell] : errors.is_large(squared))
-        cell->set_refine_flag();
-      else if (!estimate.is_any_contact_unseen && errors.is_small(squared))
-        cell->set_coarsen_flag();
-      ++own_cell;
-    }
+  for (const auto &cell : discretization.hexahedra->own_cells())
+  {
+    const double squared = estimate.cell_discretization[own_cell];
+    // Without contact the solution says nothing of errors yet.
+    if (estimate.is_any_contact_unseen ? estimate.is_contact_unseen[own_cell] : errors.is_large(squared))
+      cell->set_refine_flag();
+    else if (!estimate.is_any_contact_unseen && errors.is_small(squared))
+      cell->set_coarsen_flag();
+    ++own_cell;
+  }
 }
 
 template void mark_cells(const ErrorEstimate &, const AdaptivityParameters &, Discretization<2> &);

@@ -19,9 +19,8 @@ std::vector<unsigned int> find_extra_levels(const Discretization<dim> &discretiz
 {
   std::vector<unsigned int> extra_levels(discretization.cells.n_cells, 0);
   unsigned int own_cell = 0; // hexahedra come first
-  for (const auto &cell : discretization.hexahedra->mesh.active_cell_iterators())
-    if (cell->is_locally_owned())
-      extra_levels[own_cell++] = cell->level() - file_levels.level_at(cell);
+  for (const auto &cell : discretization.hexahedra->own_cells())
+    extra_levels[own_cell++] = cell->level() - file_levels.level_at(cell);
   return extra_levels;
 }
 } // namespace
@@ -82,25 +81,24 @@ bool mark_cells_in_motion(const std::vector<bool> &is_near_contact, OtherCells o
   const bool may_refine = discretization.n_dofs() < parameters.max_n_dofs;
   const std::vector<unsigned int> extra_levels = find_extra_levels(discretization, file_levels);
   unsigned int own_cell = 0;
-  for (const auto &cell : discretization.hexahedra->mesh.active_cell_iterators())
-    if (cell->is_locally_owned())
+  for (const auto &cell : discretization.hexahedra->own_cells())
+  {
+    const bool is_by_error = others == OtherCells::by_error;
+    const double squared = is_by_error ? estimate.cell_discretization[own_cell] : 0.;
+    if (is_near_contact[own_cell] || (is_by_error && errors.is_large(squared)))
     {
-      const bool is_by_error = others == OtherCells::by_error;
-      const double squared = is_by_error ? estimate.cell_discretization[own_cell] : 0.;
-      if (is_near_contact[own_cell] || (is_by_error && errors.is_large(squared)))
-      {
-        if (may_refine && extra_levels[own_cell] < parameters.max_levels)
-          cell->set_refine_flag();
-      }
-      else if (extra_levels[own_cell] > 0 &&
-               (is_by_error ? errors.is_small(squared) : others == OtherCells::coarser))
-        cell->set_coarsen_flag();
-      ++own_cell;
+      if (may_refine && extra_levels[own_cell] < parameters.max_levels)
+        cell->set_refine_flag();
     }
+    else if (extra_levels[own_cell] > 0 &&
+             (is_by_error ? errors.is_small(squared) : others == OtherCells::coarser))
+      cell->set_coarsen_flag();
+    ++own_cell;
+  }
   discretization.hexahedra->mesh.prepare_coarsening_and_refinement();
   bool is_any = false;
-  for (const auto &cell : discretization.hexahedra->mesh.active_cell_iterators())
-    is_any |= cell->is_locally_owned() && (cell->refine_flag_set() || cell->coarsen_flag_set());
+  for (const auto &cell : discretization.hexahedra->own_cells())
+    is_any |= cell->refine_flag_set() || cell->coarsen_flag_set();
   return dealii::Utilities::MPI::max(static_cast<int>(is_any), discretization.communicator()) == 1;
 }
 

@@ -86,9 +86,8 @@ bool Discretization<dim>::balance(const std::vector<unsigned int> &weights,
   auto &mesh = hexahedra->mesh;
   std::vector<unsigned int> weight_of_cell(mesh.n_active_cells(), 0);
   unsigned int own_cell = 0;
-  for (const auto &cell : mesh.active_cell_iterators())
-    if (cell->is_locally_owned())
-      weight_of_cell[cell->active_cell_index()] = weights[own_cell++];
+  for (const auto &cell : hexahedra->own_cells())
+    weight_of_cell[cell->active_cell_index()] = weights[own_cell++];
   const boost::signals2::scoped_connection connection = mesh.signals.weight.connect(
       [&](const auto &cell, const auto &) { return weight_of_cell[cell->active_cell_index()]; });
   change_mesh(values, [&mesh]() { mesh.repartition(); });
@@ -221,10 +220,8 @@ void Discretization<dim>::add_cells(MeshPart<dim> &part)
                                 dealii::update_values | dealii::update_JxW_values);
   const unsigned int n_dofs = part.element.n_dofs_per_cell(), n_nodes = n_dofs / dim;
   std::vector<dealii::types::global_dof_index> cell_dofs(n_dofs);
-  for (const auto &cell : part.dof_handler.active_cell_iterators())
+  for (const auto &cell : part.own_cells())
   {
-    if (!cell->is_locally_owned())
-      continue;
     values.reinit(cell);
     lumping.reinit(cell);
     part.get_dof_indices(cell, cell_dofs);

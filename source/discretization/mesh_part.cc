@@ -20,7 +20,37 @@ template <int dim>
 void MeshPart<dim>::number_dofs()
 {
   dof_handler.distribute_dofs(element);
+  the_own_cells.clear();
+  for (const auto &cell : dof_handler.active_cell_iterators())
+    if (cell->is_locally_owned())
+      the_own_cells.push_back(cell);
+  std::sort(the_own_cells.begin(), the_own_cells.end(),
+            [](const Cell &one, const Cell &other) { return one->id() < other->id(); });
+  sort_dofs();
   dealii::DoFTools::extract_locally_relevant_dofs(dof_handler, relevant_dofs);
+}
+
+template <int dim>
+void MeshPart<dim>::sort_dofs()
+{
+  const dealii::IndexSet owned = dof_handler.locally_owned_dofs();
+  std::vector<dealii::types::global_dof_index> numbers(owned.n_elements(),
+                                                       dealii::numbers::invalid_dof_index),
+      dofs(element.n_dofs_per_cell());
+  auto next = owned.begin();
+  for (const Cell &cell : the_own_cells)
+  {
+    cell->get_dof_indices(dofs);
+    for (const dealii::types::global_dof_index dof : dofs)
+      if (owned.is_element(dof))
+        if (auto &number = numbers[owned.index_within_set(dof)]; number == dealii::numbers::invalid_dof_index)
+          number = *next++;
+  }
+  // Those without a cell, see Discretization::unused_dofs, come last.
+  for (auto &number : numbers)
+    if (number == dealii::numbers::invalid_dof_index)
+      number = *next++;
+  dof_handler.renumber_dofs(numbers);
 }
 
 template <int dim>

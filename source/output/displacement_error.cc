@@ -76,25 +76,24 @@ void add_squares(const MeshPart<dim> &part, const std::vector<MaterialParameters
   const dealii::FEValuesExtractors::Vector components(0);
   std::vector<dealii::Tensor<1, dim>> u(quadrature.size());
   std::vector<dealii::Tensor<2, dim>> gradients(quadrature.size());
-  for (const auto &cell : part.dof_handler.active_cell_iterators())
-    if (cell->is_locally_owned())
+  for (const auto &cell : part.own_cells())
+  {
+    values.reinit(cell);
+    values[components].get_function_values(displacement, u);
+    values[components].get_function_gradients(displacement, gradients);
+    const MaterialParameters &material = materials[cell->material_id()];
+    for (unsigned int q = 0; q < quadrature.size(); ++q)
     {
-      values.reinit(cell);
-      values[components].get_function_values(displacement, u);
-      values[components].get_function_gradients(displacement, gradients);
-      const MaterialParameters &material = materials[cell->material_id()];
-      for (unsigned int q = 0; q < quadrature.size(); ++q)
-      {
-        const dealii::Point<dim> &x = values.quadrature_point(q);
-        const dealii::Tensor<1, dim> exact_u = exact.value(x);
-        const dealii::Tensor<2, dim> exact_gradient = exact.gradient(x, cell->diameter());
-        const std::array<double, 4> terms{{(u[q] - exact_u).norm_square(), exact_u.norm_square(),
-                                           twice_energy_density(gradients[q] - exact_gradient, material),
-                                           twice_energy_density(exact_gradient, material)}};
-        for (unsigned int i = 0; i < 4; ++i)
-          sums[i] += values.JxW(q) * terms[i];
-      }
+      const dealii::Point<dim> &x = values.quadrature_point(q);
+      const dealii::Tensor<1, dim> exact_u = exact.value(x);
+      const dealii::Tensor<2, dim> exact_gradient = exact.gradient(x, cell->diameter());
+      const std::array<double, 4> terms{{(u[q] - exact_u).norm_square(), exact_u.norm_square(),
+                                         twice_energy_density(gradients[q] - exact_gradient, material),
+                                         twice_energy_density(exact_gradient, material)}};
+      for (unsigned int i = 0; i < 4; ++i)
+        sums[i] += values.JxW(q) * terms[i];
     }
+  }
 }
 } // namespace
 

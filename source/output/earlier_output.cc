@@ -9,6 +9,31 @@
 
 namespace signorini
 {
+namespace
+{
+void remove_checkpoints(const std::filesystem::path &folder)
+{
+  namespace files = std::filesystem;
+  static const std::regex own("rank_[0-9]+");
+  std::error_code failure;
+  // First that which points to them: what is left of them then counts for nothing.
+  files::remove(folder / "last", failure);
+  if (failure)
+    throw FileError("cannot remove '" + (folder / "last").string() + "' of an earlier run");
+  for (const char *slot : {"0", "1"})
+  {
+    std::vector<files::path> earlier;
+    for (const files::directory_entry &entry : files::directory_iterator(folder / slot, failure))
+      if (std::regex_match(entry.path().filename().string(), own))
+        earlier.push_back(entry.path());
+    for (const files::path &path : earlier)
+      files::remove(path, failure);
+    files::remove(folder / slot, failure);
+  }
+  files::remove(folder, failure);
+}
+} // namespace
+
 void remove_earlier_output(const std::string &directory)
 {
   namespace files = std::filesystem;
@@ -28,5 +53,7 @@ void remove_earlier_output(const std::string &directory)
   for (const files::path &path : earlier)
     if (!files::remove(path, failure))
       throw FileError("cannot remove '" + path.string() + "' of an earlier run");
+  if (files::is_directory(folder / "checkpoint", failure))
+    remove_checkpoints(folder / "checkpoint");
 }
 } // namespace signorini

@@ -72,20 +72,18 @@ CellData make_cell_data(const MeshPart<dim> &part, const std::vector<Eigen::Matr
   if (plastic_strains)
     data.emplace_back("equivalent_plastic_strain", data.front().second);
   unsigned int own_cell = part.first_cell;
-  for (const auto &cell : part.dof_handler.active_cell_iterators())
-    if (cell->is_locally_owned())
-    {
-      const Eigen::Matrix3d &s = stresses[own_cell];
-      const double error =
-          std::sqrt(estimate.cell_discretization[own_cell] + estimate.cell_contact[own_cell]);
-      const std::array<double, 9> values{{static_cast<double>(cell->material_id()), error, von_mises(s),
-                                          s(0, 0), s(1, 1), s(2, 2), s(0, 1), s(1, 2), s(0, 2)}};
-      for (unsigned int i = 0; i < values.size(); ++i)
-        data[i].second[cell->active_cell_index()] = static_cast<float>(values[i]);
-      if (plastic_strains)
-        data.back().second[cell->active_cell_index()] = static_cast<float>((*plastic_strains)[own_cell]);
-      ++own_cell;
-    }
+  for (const auto &cell : part.own_cells())
+  {
+    const Eigen::Matrix3d &s = stresses[own_cell];
+    const double error = std::sqrt(estimate.cell_discretization[own_cell] + estimate.cell_contact[own_cell]);
+    const std::array<double, 9> values{{static_cast<double>(cell->material_id()), error, von_mises(s),
+                                        s(0, 0), s(1, 1), s(2, 2), s(0, 1), s(1, 2), s(0, 2)}};
+    for (unsigned int i = 0; i < values.size(); ++i)
+      data[i].second[cell->active_cell_index()] = static_cast<float>(values[i]);
+    if (plastic_strains)
+      data.back().second[cell->active_cell_index()] = static_cast<float>((*plastic_strains)[own_cell]);
+    ++own_cell;
+  }
   return data;
 }
 } // namespace

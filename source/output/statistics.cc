@@ -5,11 +5,30 @@
 
 #include <fmt/core.h>
 
+#include <filesystem>
+
 namespace signorini
 {
 Statistics::Statistics(const std::string &file_name) : name(file_name), file(file_name)
 {
   if (!file)
+    throw FileError("cannot write '" + name + "'");
+}
+
+Statistics::Statistics(const std::string &file_name, std::uintmax_t n_bytes)
+    : name(file_name), has_header(n_bytes > 0)
+{
+  std::error_code failure;
+  const std::uintmax_t n_present = std::filesystem::file_size(name, failure);
+  if (failure || n_present < n_bytes)
+    throw FileError(Complaint("the rows that the run wrote before its checkpoint are gone")
+                        .at(name)
+                        .expected(fmt::format("a file of {} bytes or more", n_bytes))
+                        .advise("put it back, or run again from the start"));
+  std::filesystem::resize_file(name, n_bytes, failure);
+  file.open(name, std::ios::app);
+  file.seekp(0, std::ios::end);
+  if (failure || !file)
     throw FileError("cannot write '" + name + "'");
 }
 

@@ -4,6 +4,7 @@
 #include "signorini/base/exceptions.h"
 #include "signorini/parameters/body_expressions.h"
 #include "signorini/parameters/body_parameters.h"
+#include "signorini/parameters/checkpoint_parameters.h"
 #include "signorini/parameters/contact_parameters.h"
 #include "signorini/parameters/exact_solution_parameters.h"
 #include "signorini/parameters/mesh_parameters.h"
@@ -260,6 +261,7 @@ void check_together(const ParameterText &text, const Parameters &parameters)
   check_degree_of_potential(text, parameters);
   check_adaptable(text, parameters);
   check_densities(text, parameters);
+  check_checkpoint(text, parameters);
   for (const BodyParameters &body : parameters.bodies)
     check_expressions(text, body, parameters.dimension, end_time);
   for (const ObstacleParameters &obstacle : parameters.obstacles)
@@ -284,6 +286,7 @@ Declarations declare_parameters(const ParameterText &text, const Extent extent)
   declare_exact_solution(declarations, scope);
   declare_study(declarations, scope);
   declare_output(declarations, scope);
+  declare_checkpoint(declarations, scope);
   return declarations;
 }
 
@@ -317,6 +320,8 @@ Parameters read_parameters(const ParameterText &text)
   if (text.find_subsection("Study") != nullptr)
     parameters.study = read_study(text, in_use, parameters);
   parameters.output = read_output(text, in_use);
+  if (text.find_subsection("Checkpoint") != nullptr)
+    parameters.checkpoint = read_checkpoint(text, in_use);
   check_together(text, parameters);
   check_output_directory(parameters.output.directory, text.where("Output", "Directory"));
   return parameters;

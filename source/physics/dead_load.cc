@@ -54,31 +54,30 @@ void DeadLoad<dim>::collect_points_of(const MeshPart<dim> &part,
                                    dealii::update_values | dealii::update_JxW_values |
                                        dealii::update_quadrature_points);
   std::vector<dealii::types::global_dof_index> dofs(element.n_dofs_per_cell());
-  for (const auto &cell : part.dof_handler.active_cell_iterators())
-    if (cell->is_locally_owned())
-      for (const unsigned int f : cell->face_indices())
-      {
-        if (!cell->face(f)->at_boundary())
-          continue;
-        const auto [first, last] = loaded.equal_range(cell->face(f)->boundary_id());
-        if (first == last)
-          continue;
-        values.reinit(cell, f);
-        part.get_dof_indices(cell, dofs);
-        for (auto load = first; load != last; ++load)
-          for (unsigned int q = 0; q < quadrature.size(); ++q)
-          {
-            LoadedPoint point{load->second, values.quadrature_point(q), {}, {}};
-            for (unsigned int i = 0; i < dofs.size(); ++i)
-              if (element.has_support_on_face(i, f))
-              {
-                point.weights.emplace_back(weight.get_partitioner()->global_to_local(dofs[i]),
-                                           values.shape_value(i, q) * values.JxW(q));
-                point.components.push_back(element.system_to_component_index(i).first);
-              }
-            points.push_back(std::move(point));
-          }
-      }
+  for (const auto &cell : part.own_cells())
+    for (const unsigned int f : cell->face_indices())
+    {
+      if (!cell->face(f)->at_boundary())
+        continue;
+      const auto [first, last] = loaded.equal_range(cell->face(f)->boundary_id());
+      if (first == last)
+        continue;
+      values.reinit(cell, f);
+      part.get_dof_indices(cell, dofs);
+      for (auto load = first; load != last; ++load)
+        for (unsigned int q = 0; q < quadrature.size(); ++q)
+        {
+          LoadedPoint point{load->second, values.quadrature_point(q), {}, {}};
+          for (unsigned int i = 0; i < dofs.size(); ++i)
+            if (element.has_support_on_face(i, f))
+            {
+              point.weights.emplace_back(weight.get_partitioner()->global_to_local(dofs[i]),
+                                         values.shape_value(i, q) * values.JxW(q));
+              point.components.push_back(element.system_to_component_index(i).first);
+            }
+          points.push_back(std::move(point));
+        }
+    }
 }
 
 template <int dim>

@@ -25,7 +25,8 @@ void add_options(CLI::App &app, CommandLine &command_line)
       ->type_name("SECTION/KEY=VALUE")
       ->allow_extra_args(false);
   app.add_option("--output", command_line.output, "Directory of the results")->type_name("DIR");
-  app.add_flag("--resume", command_line.resume, "Make only those runs of a study that are not finished");
+  app.add_flag("--resume", command_line.resume,
+               "Go on from the last checkpoint; make those runs of a study that are not finished");
   app.add_flag("--quiet", command_line.quiet, "Print errors only");
   app.set_version_flag("--version", "signorini " + program_version());
 }

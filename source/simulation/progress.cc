@@ -17,11 +17,11 @@ Progress::Progress(bool is_first_rank, bool quiet)
 {
 }
 
-void Progress::open_log(const std::string &directory)
+void Progress::open_log(const std::string &directory, EarlierLog earlier)
 {
   if (!is_active)
     return;
-  log.open(directory + "/log.txt");
+  log.open(directory + "/log.txt", earlier == EarlierLog::continued ? std::ios::app : std::ios::trunc);
   if (!log)
     throw FileError("cannot write '" + directory + "/log.txt'");
 }
@@ -41,7 +41,9 @@ void Progress::step(const std::string &line, double share)
     return;
   const auto now = std::chrono::steady_clock::now();
   const double elapsed = std::chrono::duration<double>(now - start).count();
-  const double remaining = share > 0. ? elapsed * (1. - share) / share : 0.;
+  if (first_share < 0.)
+    first_share = share;
+  const double remaining = share > first_share ? elapsed * (1. - share) / (share - first_share) : 0.;
   const std::string full = fmt::format("{}  {:5.1f} %  ETA {:.0f} s", line, 100. * share, remaining);
   log << full << std::endl;
   const double pause = is_terminal ? 0.2 : 2.;

@@ -24,12 +24,18 @@ void build(const ParameterText &text, const Parameters &parameters, const MPI_Co
 } // namespace
 
 void run(const ParameterText &text, const Parameters &parameters, const std::vector<std::string> &overrides,
-         const MPI_Comm &communicator, const Screen screen)
+         const MPI_Comm &communicator, const Screen screen, const Start start)
 {
+  const std::string &directory = parameters.output.directory;
   build(text, parameters, communicator, screen,
         [&](auto &&simulation)
         {
-          const auto lock = prepare_directory(text, overrides, parameters.output.directory, communicator);
+          const auto lock = lock_directory(directory, communicator);
+          if (start == Start::at_checkpoint)
+            simulation.resume();
+          else
+            clear_directory(text, overrides, directory, communicator);
+          write_parameters(text, directory, communicator);
           simulation.run();
         });
 }

@@ -26,28 +26,6 @@ bool is_input(const ParameterText &text, const std::string &used)
   return is_same(text.file) || std::any_of(text.entries.begin(), text.entries.end(),
                                            [&](const ParameterEntry &entry) { return is_same(entry.file); });
 }
-
-/// A run may be repeated from what it wrote, which then stays as it is; overrides would be lost that way.
-void start_directory(const ParameterText &text, const std::vector<std::string> &overrides,
-                     const std::string &directory)
-{
-  const std::string used = directory + "/parameters.prm";
-  const bool is_repetition = is_input(text, used);
-  if (is_repetition && !overrides.empty())
-    throw FileError(
-        Complaint("the input lies where the parameters of the run, with its overrides, are written")
-            .at(used)
-            .found("--set '" + overrides.front() + "'")
-            .expected("no --set, or an output directory without the input")
-            .advise("choose another directory by --output"));
-  remove_earlier_output(directory);
-  if (is_repetition)
-    return;
-  std::ofstream file(used);
-  write_parameters_used(text, file);
-  if (!file.flush())
-    throw FileError("cannot write '" + used + "'");
-}
 } // namespace
 
 void on_first_rank(const MPI_Comm &communicator, const std::function<void()> &call)
@@ -67,18 +45,46 @@ void on_first_rank(const MPI_Comm &communicator, const std::function<void()> &ca
     throw FileError(fault);
 }
 
-std::unique_ptr<OutputLock> prepare_directory(const ParameterText &text,
-                                              const std::vector<std::string> &overrides,
-                                              const std::string &directory, const MPI_Comm &communicator)
+std::unique_ptr<OutputLock> lock_directory(const std::string &directory, const MPI_Comm &communicator)
 {
   std::unique_ptr<OutputLock> lock;
+  on_first_rank(communicator, [&] { lock = std::make_unique<OutputLock>(directory); });
+  return lock;
+}
+
+void clear_directory(const ParameterText &text, const std::vector<std::string> &overrides,
+                     const std::string &directory, const MPI_Comm &communicator)
+{
+  const std::string used = directory + "/parameters.prm";
+  on_first_rank(
+      communicator,
+      [&]
+      {
+        // A run may be repeated from what it wrote, which then stays as it is; overrides would be
+        // lost that way.
+        if (!overrides.empty() && is_input(text, used))
+          throw FileError(
+              Complaint("the input lies where the parameters of the run, with its overrides, are written")
+                  .at(used)
+                  .found("--set '" + overrides.front() + "'")
+                  .expected("no --set, or an output directory without the input")
+                  .advise("choose another directory by --output"));
+        remove_earlier_output(directory);
+      });
+}
+
+void write_parameters(const ParameterText &text, const std::string &directory, const MPI_Comm &communicator)
+{
+  const std::string used = directory + "/parameters.prm";
   on_first_rank(communicator,
                 [&]
                 {
-                  auto taken = std::make_unique<OutputLock>(directory);
-                  start_directory(text, overrides, directory);
-                  lock = std::move(taken);
+                  if (is_input(text, used))
+                    return;
+                  std::ofstream file(used);
+                  write_parameters_used(text, file);
+                  if (!file.flush())
+                    throw FileError("cannot write '" + used + "'");
                 });
-  return lock;
 }
 } // namespace signorini

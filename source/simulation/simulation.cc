@@ -25,7 +25,9 @@ Simulation<dim>::Simulation(const ParameterText &parameter_text, const Parameter
                             const MPI_Comm &mpi_communicator, bool is_quiet)
     : parameters(the_parameters), text(&parameter_text), communicator(mpi_communicator),
       progress(dealii::Utilities::MPI::this_mpi_process(mpi_communicator) == 0, is_quiet),
-      scene(make_scene<dim>(the_parameters))
+      scene(make_scene<dim>(the_parameters)),
+      fields(std::make_unique<Fields<dim>>(the_parameters.output.directory)),
+      checkpoint(the_parameters.output.directory, mpi_communicator)
 {
   const auto section = run_time.enter("set-up");
   results.parameters = &parameters;
@@ -117,12 +119,15 @@ template <int dim>
 void Simulation<dim>::run()
 {
   const std::string &directory = parameters.output.directory;
-  fields = std::make_unique<Fields<dim>>(directory);
   fields->set_mesh(*discretization, map_of_pressures());
-  progress.open_log(directory);
   if (dealii::Utilities::MPI::this_mpi_process(communicator) == 0)
-    statistics = std::make_unique<Statistics>(directory + "/statistics.csv");
-  print_plan();
+    statistics = is_resumed ? std::make_unique<Statistics>(directory + "/statistics.csv", statistics_size)
+                            : std::make_unique<Statistics>(directory + "/statistics.csv");
+  if (!is_resumed)
+  {
+    progress.open_log(directory, Progress::EarlierLog::replaced);
+    print_plan();
+  }
   measure_bodies();
   watch_for_interruption();
   std::optional<NumericalError> failure;
@@ -154,7 +159,12 @@ void Simulation<dim>::check_interruption(const std::function<void()> &write)
   results.status = "interrupted";
   throw NumericalError(
       Complaint(fmt::format("the run was interrupted by {} at t = {:.6g}", signal, state.time))
-          .advise("what was written up to there is whole; run again for the rest"));
+          .advise(
+              time_of_checkpoint
+                  ? fmt::format("what was written up to there is whole; 'signorini --resume {}' goes on from "
+                                "t = {:.6g}",
+                                display_name(text->file), *time_of_checkpoint)
+                  : "what was written up to there is whole; run again for the rest"));
 }
 
 template <int dim>

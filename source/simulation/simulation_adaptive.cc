@@ -16,10 +16,11 @@ void Simulation<dim>::adapt_to_load()
 {
   const AdaptivityParameters &adaptivity = *parameters.adaptivity;
   const ErrorEstimate &estimate = results.estimate;
-  for (unsigned int cycle = 0;; ++cycle)
+  for (;; ++*refinement_cycle)
   {
-    say_mesh(cycle);
-    const bool is_last = cycle == adaptivity.max_cycles || results.n_dofs >= adaptivity.max_n_dofs;
+    say_mesh(*refinement_cycle);
+    const bool is_last =
+        *refinement_cycle == adaptivity.max_cycles || results.n_dofs >= adaptivity.max_n_dofs;
     // What the penalty leaves does not show where to refine: it is corrected on meshes that may be the last.
     const auto is_within = [&](double squared)
     { return !estimate.is_any_contact_unseen && estimate.relative(squared) <= adaptivity.target_error; };
@@ -41,11 +42,14 @@ void Simulation<dim>::adapt_to_load()
             is_penalty_in_the_way ? "most of it is the penalty's; set Penalty factor = auto or "
                                     "Contact/Correction"
                                   : "raise Maximum cycles or Maximum dofs"));
+      refinement_cycle.reset();
       return;
     }
+    save_when_due();
     check_interruption(
         [&]()
         {
+          save();
           record_quasi_static();
           write_fields();
         });

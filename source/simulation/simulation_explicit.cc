@@ -15,11 +15,14 @@ template <int dim>
 void Simulation<dim>::run_explicit(const ExplicitParameters &solver_parameters)
 {
   const double end = solver_parameters.end_time;
-  make_explicit_solver();
   if (parameters.adaptivity)
     file_levels = std::make_unique<FileLevels<dim>>(parameters.bodies);
-  explicit_solver->start(state);
-  begin_records(*explicit_solver, end);
+  if (!is_resumed)
+  {
+    make_explicit_solver();
+    explicit_solver->start(state);
+    begin_records(*explicit_solver, end);
+  }
   while (state.time < end)
   {
     if (const double unadapted_step = next_time_step(end); is_adaptation_due(unadapted_step))

@@ -35,19 +35,29 @@ std::optional<Complaint> Simulation<dim>::make_implicit_step(double time_step, b
 }
 
 template <int dim>
+void Simulation<dim>::make_implicit_solver()
+{
+  implicit_solver =
+      std::make_unique<ImplicitSolver<dim>>(*discretization, *supports, scene, forces, surface_map.get(),
+                                            std::get<ImplicitParameters>(parameters.solver), run_time);
+}
+
+template <int dim>
 void Simulation<dim>::run_implicit(const ImplicitParameters &run)
 {
-  implicit_solver = std::make_unique<ImplicitSolver<dim>>(*discretization, *supports, scene, forces,
-                                                          surface_map.get(), run, run_time);
-  progress.say("Linear solver: " + implicit_solver->linear_solver_name());
-  implicit_solver->start(state);
-  begin_records(*implicit_solver, run.end_time);
+  if (!is_resumed)
+  {
+    make_implicit_solver();
+    progress.say("Linear solver: " + implicit_solver->linear_solver_name());
+    implicit_solver->start(state);
+    begin_records(*implicit_solver, run.end_time);
+    step_length = run.time_step;
+  }
   const double smallest_step = run.time_step * std::pow(0.5, run.max_bisections);
-  double step = run.time_step;
   while (state.time < run.end_time)
   {
     const double remaining = run.end_time - state.time;
-    const double time_step = remaining / std::max(1., std::ceil(remaining / step - 1e-9));
+    const double time_step = remaining / std::max(1., std::ceil(remaining / step_length - 1e-9));
     const bool is_smallest = 0.5 * time_step < smallest_step;
     if (const std::optional<Complaint> fault = make_implicit_step(time_step, is_smallest))
     {
@@ -59,17 +69,17 @@ void Simulation<dim>::run_implicit(const ImplicitParameters &run)
         scene.blame_jump(state.time, state.time + time_step, end);
         throw NumericalError(end);
       }
-      step = 0.5 * time_step;
+      step_length = 0.5 * time_step;
       continue;
     }
     implicit_solver->accept(state);
     if (run.end_time - state.time < 1e-9 * time_step)
       state.time = run.end_time;
     ++results.n_steps;
+    if (implicit_solver->unsteadiness() <= 0.5 * run.step_tolerance || run.step_tolerance == 0.)
+      step_length = std::min(run.time_step, 2. * step_length);
     record_contact(measure_terms());
     record_when_due(*implicit_solver, time_step, run.end_time);
-    if (implicit_solver->unsteadiness() <= 0.5 * run.step_tolerance || run.step_tolerance == 0.)
-      step = std::min(run.time_step, 2. * step);
   }
 }
 

@@ -69,6 +69,15 @@ void Simulation<dim>::begin_records(MotionSolver<dim> &solver, double end)
 }
 
 template <int dim>
+unsigned int Simulation<dim>::next_output(unsigned int n, double end) const
+{
+  auto next = static_cast<unsigned int>(std::floor(state.time / end * n));
+  while (state.time >= end * next / n)
+    ++next;
+  return next;
+}
+
+template <int dim>
 void Simulation<dim>::record_when_due(MotionSolver<dim> &solver, double time_step, double end)
 {
   const unsigned int n_rows = std::max(1u, parameters.output.n_statistics);
@@ -77,26 +86,29 @@ void Simulation<dim>::record_when_due(MotionSolver<dim> &solver, double time_ste
   {
     solver.take_stock(state);
     record_motion(solver, time_step, end);
-    next_row = 1 + static_cast<unsigned int>(std::floor(state.time / end * n_rows));
+    next_row = next_output(n_rows, end);
   }
   if (state.time >= end || state.time >= end * next_field / n_fields)
   {
     estimate_error();
     write_fields();
     time_of_fields = state.time;
-    next_field = 1 + static_cast<unsigned int>(std::floor(state.time / end * n_fields));
+    next_field = next_output(n_fields, end);
   }
-  if (state.time < end)
-    check_interruption(
-        [&]()
-        {
-          solver.take_stock(state);
-          if (results.history.back().time < state.time)
-            record_motion(solver, time_step, end);
-          estimate_error();
-          if (time_of_fields < state.time)
-            write_fields();
-        });
+  if (!(state.time < end))
+    return;
+  save_when_due();
+  check_interruption(
+      [&]()
+      {
+        save();
+        solver.take_stock(state);
+        if (results.history.back().time < state.time)
+          record_motion(solver, time_step, end);
+        estimate_error();
+        if (time_of_fields < state.time)
+          write_fields();
+      });
 }
 
 template <int dim>

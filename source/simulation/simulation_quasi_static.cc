@@ -90,47 +90,71 @@ std::optional<Complaint> Simulation<dim>::find_equilibrium(double time)
 }
 
 template <int dim>
-void Simulation<dim>::run_quasi_static()
+void Simulation<dim>::begin_quasi_static_records()
 {
-  const auto &solver_parameters = std::get<QuasiStaticParameters>(parameters.solver);
   make_quasi_static_solver();
   progress.say("Linear solver: " + quasi_static_solver->linear_solver_name());
-  const double end = solver_parameters.end_time, largest_step = end / solver_parameters.load_steps;
-  const double smallest_step = largest_step * std::pow(0.5, solver_parameters.max_bisections);
-  double step = largest_step, n_load_steps_done = 0.;
   for (const auto &friction : forces.frictions)
     friction->update(discretization->make_vector()); // nothing has moved yet
   estimate_error();
   record_quasi_static();
   write_fields();
-  while (state.time < end * (1. - 1e-12))
+}
+
+template <int dim>
+void Simulation<dim>::halve_load_step(double time, double smallest_step, const Complaint &fault)
+{
+  step_length *= 0.5;
+  progress.say(fmt::format("load {:.5g}: {}; trying half the step", time, fault.what));
+  if (step_length < smallest_step)
+    throw NumericalError(
+        Complaint(fmt::format("no equilibrium beyond load parameter {:.6g}: {}", state.time, fault.what))
+            .at(fault.where)
+            .expected(fault.allowed)
+            .advise(fault.next_step));
+}
+
+template <int dim>
+void Simulation<dim>::run_quasi_static()
+{
+  const auto &solver_parameters = std::get<QuasiStaticParameters>(parameters.solver);
+  const double end = solver_parameters.end_time, largest_step = end / solver_parameters.load_steps;
+  const double smallest_step = largest_step * std::pow(0.5, solver_parameters.max_bisections);
+  if (!is_resumed)
   {
-    check_interruption([]() {});
-    const double time = end - state.time < step * (1. + 1e-9) ? end : state.time + step;
-    if (const std::optional<Complaint> fault = solve_load_step(time))
-    {
-      step *= 0.5;
-      progress.say(fmt::format("load {:.5g}: {}; trying half the step", time, fault->what));
-      if (step < smallest_step)
-        throw NumericalError(
-            Complaint(fmt::format("no equilibrium beyond load parameter {:.6g}: {}", state.time, fault->what))
-                .at(fault->where)
-                .expected(fault->allowed)
-                .advise(fault->next_step));
-      continue;
-    }
-    ++results.n_steps;
+    begin_quasi_static_records();
+    step_length = largest_step;
+  }
+  else if (refinement_cycle)
     estimate_error();
-    // Halved steps make one load step of the file: so many cycles as it asks for, unless contact needs them.
-    const double n_load_steps = std::floor(time / largest_step + 1e-9);
-    const bool is_load_step_done = n_load_steps > n_load_steps_done;
-    n_load_steps_done = n_load_steps;
-    if (parameters.adaptivity && (is_load_step_done || results.estimate.is_any_contact_unseen))
+  const auto n_load_steps_done = [&]() { return std::floor(state.time / largest_step + 1e-9); };
+  while (refinement_cycle || state.time < end * (1. - 1e-12))
+  {
+    if (!refinement_cycle)
+    {
+      save_when_due();
+      check_interruption([this]() { save(); });
+      const double n_load_steps_before = n_load_steps_done();
+      const double time = end - state.time < step_length * (1. + 1e-9) ? end : state.time + step_length;
+      if (const std::optional<Complaint> fault = solve_load_step(time))
+      {
+        halve_load_step(time, smallest_step, *fault);
+        continue;
+      }
+      ++results.n_steps;
+      // Halved steps make one load step of the file: so many cycles as it asks for, unless contact needs
+      // them.
+      estimate_error();
+      if (parameters.adaptivity &&
+          (n_load_steps_done() > n_load_steps_before || results.estimate.is_any_contact_unseen))
+        refinement_cycle = 0;
+    }
+    if (refinement_cycle)
       adapt_to_load();
     record_quasi_static();
     say_equilibrium(end);
     write_fields();
-    step = std::min(largest_step, 2. * step);
+    step_length = std::min(largest_step, 2. * step_length);
   }
 }
 

@@ -72,10 +72,12 @@ void Study::remove_earlier_runs() const
 void Study::run()
 {
   const std::string &directory = parameters.output.directory;
-  const auto lock = prepare_directory(text, command_line.overrides, directory, communicator);
+  const auto lock = lock_directory(directory, communicator);
+  clear_directory(text, command_line.overrides, directory, communicator);
+  write_parameters(text, directory, communicator);
   if (!command_line.resume)
     remove_earlier_runs();
-  progress.open_log(directory);
+  progress.open_log(directory, Progress::EarlierLog::replaced);
   print_plan();
   watch_for_interruption();
   std::string signal;
@@ -122,7 +124,7 @@ void Study::simulate(const StudyRun &run, StudyRow &row)
         "of the runs up to it");
   try
   {
-    signorini::run(run.text, run.parameters, {}, communicator, Screen::nothing);
+    signorini::run(run.text, run.parameters, {}, communicator, Screen::nothing, Start::anew);
   }
   catch (const NumericalError &)
   {

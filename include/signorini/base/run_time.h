@@ -34,14 +34,29 @@ public:
   /// [s] by name.
   const std::map<std::string, double> &sections() const { return all; }
 
-  /// Since this object was made [s].
+  /// Since this object was made, and in what an archive has brought [s].
   double total() const
   {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    return earlier + std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  }
+
+  /// For boost's archives: what is read from one is added.
+  template <typename Archive>
+  void serialize(Archive &archive, unsigned int /*version*/)
+  {
+    std::map<std::string, double> sections_so_far = all;
+    double total_so_far = total();
+    archive &sections_so_far &total_so_far;
+    if (!Archive::is_loading::value)
+      return;
+    for (const auto &[name, seconds] : sections_so_far)
+      all[name] += seconds;
+    earlier += total_so_far;
   }
 
 private:
   std::map<std::string, double> all;
   std::chrono::steady_clock::time_point start = std::chrono::steady_clock::now();
+  double earlier = 0.; ///< in what archives have brought [s]
 };
 } // namespace signorini

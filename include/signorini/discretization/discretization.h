@@ -33,7 +33,7 @@ struct OwnedNode
 };
 
 /// Meshes, elements, degrees of freedom and hanging nodes of all bodies of a scene. Own cells are numbered
-/// part by part, in the order of deal.II's active cells, hexahedra first.
+/// part by part, in the order of MeshPart::own_cells(), hexahedra first.
 template <int dim>
 class Discretization
 {
@@ -59,6 +59,14 @@ public:
   /// Returns whether it did; then whatever was made from this object before is void.
   bool balance(const std::vector<unsigned int> &weights, const std::vector<Vector *> &values);
 
+  /// Ids of this rank's hexahedra, from which restore() makes the same mesh again.
+  std::vector<dealii::CellId::binary_type> hexahedron_ids() const;
+
+  /// Refines and coarsens the hexahedra of the file's mesh until every rank has those with these ids of its
+  /// own, in the order of hexahedron_ids(), and numbers everything anew (collective). Whatever was made from
+  /// this object before is void. Throws FileError if that mesh cannot become these.
+  void restore(const std::vector<dealii::CellId::binary_type> &ids);
+
   /// A zero vector with ghost entries for all that this rank's cells need.
   Vector make_vector() const;
 
@@ -75,9 +83,8 @@ public:
   {
     unsigned int own_cell = 0;
     for (MeshPart<dim> *part : parts)
-      for (const auto &cell : part->dof_handler.active_cell_iterators())
-        if (cell->is_locally_owned())
-          visit(*part, cell, own_cell++);
+      for (const auto &cell : part->own_cells())
+        visit(*part, cell, own_cell++);
   }
 
   const unsigned int degree;                        ///< of all elements

@@ -28,8 +28,12 @@ public:
            const dealii::FiniteElement<dim> &scalar_element);
   virtual ~MeshPart() = default;
 
-  /// Numbers the degrees of freedom of this part anew. Afterwards set_numbering() and place() it.
+  /// Numbers cells and degrees of freedom of this part anew. Afterwards set_numbering() and place() it.
   void number_dofs();
+
+  /// This rank's cells in the order of their ids. Theirs and that of the degrees of freedom are those of the
+  /// mesh as it is, however it was refined to that: deal.II's own depend on the way.
+  const std::vector<Cell> &own_cells() const { return the_own_cells; }
 
   /// Where the nodes of a cell are to be, in the order of the scalar element [m].
   virtual std::vector<dealii::Point<dim>> place_nodes(const Cell &cell) = 0;
@@ -82,6 +86,10 @@ public:
   unsigned int first_cell = 0;    ///< of its own cells among the own cells of all parts
 
 private:
+  /// Numbers the degrees of freedom in the order of the cells.
+  void sort_dofs();
+
+  std::vector<Cell> the_own_cells;
   std::vector<dealii::types::global_dof_index> own_starts_of_ranks, starts_of_ranks;
   Vector node_positions;
   std::unique_ptr<dealii::Mapping<dim>> the_mapping;

@@ -35,6 +35,13 @@ public:
   /// Throws FileError (collective).
   void write(const State &state, const SceneForces<dim> &forces, const ErrorEstimate &estimate);
 
+  /// The list of what has been written, for boost's archives.
+  template <typename Archive>
+  void serialize(Archive &archive, unsigned int /*version*/)
+  {
+    archive &records;
+  }
+
 private:
   /// Scalar fields on one part of the mesh.
   struct ContactFields

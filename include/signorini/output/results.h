@@ -26,6 +26,12 @@ struct BodyRecord
   Triple velocity{};      ///< of its centre of mass; zero in quasi-static runs [m/s]
   Triple contact_force{}; ///< on a body, with that of the contact damping [N; N/m in 2-D]
   Triple half_widths{};   ///< of its box along the axes; zero of an obstacle [m]
+
+  template <typename Archive>
+  void serialize(Archive &archive, unsigned int /*version*/)
+  {
+    archive &position &displacement &velocity &contact_force &half_widths;
+  }
 };
 
 /// Contact force on a body from another one or an obstacle, with that of the contact damping.
@@ -49,6 +55,12 @@ struct HistoryRow
   std::vector<BodyRecord> bodies;                           ///< and after them the obstacles
   double rubbed_off = 0.;                                   ///< by friction until then [J; J/m in 2-D]
   std::set<std::pair<unsigned int, unsigned int>> touching; ///< those with a force between them
+
+  template <typename Archive>
+  void serialize(Archive &archive, unsigned int /*version*/)
+  {
+    archive &time &bodies &rubbed_off &touching;
+  }
 };
 
 /// A part of the program that the scene did not need.
@@ -133,5 +145,15 @@ struct Results
   ErrorEstimate estimate;                                   ///< of the last load step or output of fields
   DisplacementError displacement_error;                     ///< where the exact solution has a displacement
   std::vector<ErrorRow> errors;
+
+  /// What has been gathered step by step, for boost's archives; all else is found at the end.
+  template <typename Archive>
+  void serialize(Archive &archive, unsigned int /*version*/)
+  {
+    archive &warnings &n_steps &n_iterations &penalty_factor &history;
+    archive &max_penetration &max_penetration_over_thickness &max_pressure &max_area &max_n_pairs
+        &max_stiffness;
+    archive &has_ledger &energy &max_ledger_residual &momentum &max_linear_drift &max_angular_drift;
+  }
 };
 } // namespace signorini

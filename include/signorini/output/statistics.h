@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
+#include <cstdint>
 #include <fstream>
 #include <string>
 #include <utility>
@@ -16,7 +17,11 @@ public:
 
   /// Throws FileError if the file cannot be made.
   explicit Statistics(const std::string &file_name);
+  /// Goes on behind the first `n_bytes` of an earlier part of the run. Throws FileError if there are fewer.
+  Statistics(const std::string &file_name, std::uintmax_t n_bytes);
   void write(const Row &row);
+  /// What has been written [bytes].
+  std::uintmax_t size() { return static_cast<std::uintmax_t>(file.tellp()); }
 
 private:
   std::string name;

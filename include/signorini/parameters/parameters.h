@@ -268,6 +268,12 @@ struct OutputParameters
   unsigned int n_statistics = 200; ///< about how many rows of statistics.csv an explicit run writes
 };
 
+/// `subsection Checkpoint`.
+struct CheckpointParameters
+{
+  double interval = 600.; ///< from one checkpoint to the next [s of run time]
+};
+
 /// `subsection Adaptivity`. Target error and cycles are of quasi-static runs, interval and levels of explicit
 /// ones.
 struct AdaptivityParameters
@@ -317,5 +323,6 @@ struct Parameters
   std::optional<ExactSolutionParameters> exact_solution;
   std::optional<StudyParameters> study;
   OutputParameters output;
+  std::optional<CheckpointParameters> checkpoint;
 };
 } // namespace signorini

@@ -62,6 +62,13 @@ public:
   /// Mean true stress of every own cell [Pa].
   std::vector<Eigen::Matrix3d> stresses() const;
 
+  /// What points that have yielded remember, for boost's archives.
+  template <typename Archive>
+  void serialize(Archive &archive, unsigned int /*version*/)
+  {
+    archive &plastic_states;
+  }
+
 private:
   using PlasticKernel = CellKernel<dim, J2Plastic<dim>>;
   using Kernel =

@@ -10,6 +10,12 @@ struct PlasticState
 {
   Eigen::Matrix3d inverse_metric = Eigen::Matrix3d::Zero(); ///< C_p⁻¹ − I, with det C_p = 1
   double equivalent_strain = 0.;                            ///< α, of all yielding so far
+
+  template <typename Archive>
+  void serialize(Archive &archive, unsigned int /*version*/)
+  {
+    archive &inverse_metric &equivalent_strain;
+  }
 };
 
 /// What yielding has made of a point.

@@ -38,6 +38,14 @@ struct EnergyLedger
   double residual() const;
   /// Takes the present sums into account for `largest`.
   void note_scale();
+
+  template <typename Archive>
+  void serialize(Archive &archive, unsigned int /*version*/)
+  {
+    archive &kinetic &elastic &contact &dissipated &dissipated_by_viscosity &plastic_work &rubbed_off
+        &work_of_loads &work_of_supports &work_of_obstacles &contact_renewals &contact_loss &adaptation
+            &max_adaptation &initial &largest;
+  }
 };
 
 /// Linear and angular momentum (about the origin) and what changed them from outside. In 2-D only the first
@@ -56,5 +64,12 @@ struct MomentumLedger
   /// |momentum − initial − impulse| over the scale.
   double linear_drift() const;
   double angular_drift() const;
+
+  template <typename Archive>
+  void serialize(Archive &archive, unsigned int /*version*/)
+  {
+    archive &linear &angular &linear_impulse &angular_impulse &initial_linear &initial_angular &linear_scale
+        &angular_scale;
+  }
 };
 } // namespace signorini

@@ -14,6 +14,12 @@ struct VectorAndMoment
   std::array<double, 3> moment{};
   double vector_scale = 0.; ///< sum of the nodal magnitudes
   double moment_scale = 0.; ///< sum of |x|·(nodal magnitude)
+
+  template <typename Archive>
+  void serialize(Archive &archive, unsigned int /*version*/)
+  {
+    archive &vector &moment &vector_scale &moment_scale;
+  }
 };
 
 /// Sums a nodal quantity q over all ranks: Σ q and Σ x×q, with x = X + u the nodes' positions. With forces:

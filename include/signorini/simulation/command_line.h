@@ -17,9 +17,9 @@ struct CommandLine
   std::optional<std::string> parameters_format; ///< print all parameters as prm, json or md, and leave
   std::vector<std::string> overrides;           ///< "Section/Key=value"
   std::optional<std::string> output;            ///< instead of Output/Directory
-  bool resume = false;                          ///< of a study: make only the runs that are not finished
-  bool quiet = false;                           ///< print errors only
-  std::string answer; ///< text of --help or --version: print it and leave with code 0
+  bool resume = false; ///< go on from a checkpoint; of a study: make only the runs that are not finished
+  bool quiet = false;  ///< print errors only
+  std::string answer;  ///< text of --help or --version: print it and leave with code 0
 };
 
 /// Throws InputError for an option that does not exist or has no value, and if there is no file although one

@@ -9,6 +9,7 @@
 #include "signorini/base/run_time.h"
 #include "signorini/discretization/supports.h"
 #include "signorini/discretization/surface_map.h"
+#include "signorini/output/checkpoint.h"
 #include "signorini/output/fields.h"
 #include "signorini/output/results.h"
 #include "signorini/output/statistics.h"
@@ -39,6 +40,11 @@ public:
   /// What would be done, at what size and cost.
   void print_plan();
 
+  /// Makes this the run that was stopped at the last good checkpoint of Output/Directory, where run() will go
+  /// on. Throws InputError if the parameters are not those of that run, and FileError. Once only, before
+  /// run().
+  void resume();
+
   /// Runs, writing into Output/Directory. Throws NumericalError, also for a run that is interrupted, after
   /// the last good output is written, and FileError.
   void run();
@@ -53,8 +59,12 @@ private:
   void list_parts();
 
   void run_quasi_static();
+  void begin_quasi_static_records();
+  /// Throws NumericalError where the load step that failed cannot be halved.
+  void halve_load_step(double time, double smallest_step, const Complaint &fault);
   void run_explicit(const ExplicitParameters &solver_parameters);
   void run_implicit(const ImplicitParameters &solver_parameters);
+  void make_implicit_solver();
   /// Returns why the step failed or must be shorter, with the state as it was.
   std::optional<Complaint> make_implicit_step(double time_step, bool may_be_unsteady);
   /// Whether there is inertia.
@@ -76,6 +86,18 @@ private:
   void record_motion(const MotionSolver<dim> &solver, double time_step, double end_time);
   /// Throws NumericalError for an energy that is no number, and for a ledger that does not close.
   void check_ledger() const;
+  /// The first of `n` equal spans to the end time whose end is still to come.
+  unsigned int next_output(unsigned int n, double end_time) const;
+  /// Writes or reads all that the rest of the run depends on. Throws FileError.
+  template <typename Archive>
+  void archive_run(Archive &archive);
+  /// Writes a checkpoint where the file asks for them; the state must be the end of an accepted step.
+  void save();
+  void save_when_due();
+  /// Makes the mesh of these cells and what stands on it, without a past. Throws FileError if it does not
+  /// have as many of this rank's degrees of freedom as given.
+  void build_as_saved(const std::vector<dealii::CellId::binary_type> &hexahedron_ids,
+                      std::size_t n_owned_dofs);
   void make_explicit_solver();
   /// Whether the contact forces of every step are solved for.
   bool has_implicit_contact() const;
@@ -175,10 +197,17 @@ private:
   unsigned int next_adaptation_step = 0;     ///< explicit runs: the mesh is adapted before this step,
   double next_adaptation_time = 0.;          ///< and before this time, to which contact has been foreseen [s]
   unsigned int next_row = 1, next_field = 1; ///< runs in motion: of those that 'Output' asks for
+  std::optional<unsigned int> refinement_cycle; ///< of a load step that is being adapted to
+  double step_length = 0.;                      ///< quasi-static and implicit runs: that is tried next [s]
   bool has_warned_of_depth = false, has_warned_of_unseen = false;
   double time_of_fields = 0.; ///< runs in motion: at which the last ones were written [s]
   std::unique_ptr<Fields<dim>> fields;
   std::unique_ptr<Statistics> statistics; ///< on rank 0
+  Checkpoint checkpoint;
+  bool is_resumed = false;
+  std::uintmax_t statistics_size = 0; ///< of a run that is resumed: at its checkpoint, on rank 0 [bytes]
+  double run_time_of_checkpoint = 0.; ///< of the last one [s]
+  std::optional<double> time_of_checkpoint; ///< of the last one, none if there is none yet [s]
   Results<dim> results;
 };
 } // namespace signorini

@@ -27,6 +27,12 @@ struct ContactBound
   double frequency_squared =
       0.;                   ///< max over nodes of the row sum of the contact stiffness over the mass [1/s²]
   double damping_rate = 0.; ///< the same of the damping matrix [1/s]
+
+  template <typename Archive>
+  void serialize(Archive &archive, unsigned int /*version*/)
+  {
+    archive &frequency_squared &damping_rate;
+  }
 };
 
 template <int dim>

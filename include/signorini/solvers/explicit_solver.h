@@ -51,6 +51,19 @@ public:
 
   void take_stock(const State &state) override;
 
+  /// What is remembered from step to step, for boost's archives.
+  template <typename Archive>
+  void serialize(Archive &archive, unsigned int version)
+  {
+    MotionSolver<dim>::serialize(archive, version);
+    archive &force &load_force &damping_force &viscous_force &external &obstacle_forces;
+    archive &half_step_of_contact &last_time_step &n_steps;
+    archive &bulk_frequency_squared &bulk_damping_rate &stretches_of_bound;
+    archive &contact_bound &n_searches_of_bound;
+    if (implicit_contact)
+      archive &*implicit_contact;
+  }
+
 private:
   using MotionSolver<dim>::energy_ledger;
 

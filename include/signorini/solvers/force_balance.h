@@ -60,6 +60,13 @@ public:
 
   const std::vector<std::shared_ptr<ForceTerm>> &terms() const { return all_terms; }
 
+  /// What is remembered from one state to the next, for boost's archives.
+  template <typename Archive>
+  void serialize(Archive &archive, unsigned int /*version*/)
+  {
+    archive &largest_magnitudes;
+  }
+
 private:
   struct BodyNorms
   {

@@ -51,6 +51,13 @@ public:
   /// Forces of the last move, damping and friction included, on all nodes [N].
   const Vector &force() const { return total_force; }
 
+  /// What is remembered from step to step, for boost's archives.
+  template <typename Archive>
+  void serialize(Archive &archive, unsigned int /*version*/)
+  {
+    archive &stored;
+  }
+
 private:
   std::vector<SpatialVector<dim>> find_increments(double least, double time_step) const;
   void compute_forces();

@@ -47,6 +47,15 @@ public:
   unsigned int n_iterations() const { return newton.n_iterations(); }
   std::string linear_solver_name() const { return newton.linear_solver_name(); }
 
+  /// What is remembered from step to step, for boost's archives.
+  template <typename Archive>
+  void serialize(Archive &archive, unsigned int version)
+  {
+    MotionSolver<dim>::serialize(archive, version);
+    archive &newton &accepted_change &accepted_time_step;
+    archive &change_of_rate &largest_speed &contact_energy;
+  }
+
 private:
   static SceneForces<dim> replace_loads(SceneForces<dim> forces,
                                         std::vector<std::shared_ptr<ForceTerm>> loads);

@@ -22,6 +22,13 @@ public:
   const EnergyLedger &energy() const { return energy_ledger; }
   const MomentumLedger &momentum() const { return momentum_ledger; }
 
+  /// The ledgers, for boost's archives.
+  template <typename Archive>
+  void serialize(Archive &archive, unsigned int /*version*/)
+  {
+    archive &energy_ledger &momentum_ledger;
+  }
+
 protected:
   /// Makes the present values of the ledgers the initial ones.
   void open_ledgers()

@@ -55,6 +55,13 @@ public:
   /// Forces that the supports exert at the last equilibrium, on supported entries only [N].
   const Vector &reactions() const { return balance.reactions(); }
 
+  /// What is remembered from one equilibrium to the next, for boost's archives.
+  template <typename Archive>
+  void serialize(Archive &archive, unsigned int /*version*/)
+  {
+    archive &balance;
+  }
+
 private:
   enum class DrivenBy
   {

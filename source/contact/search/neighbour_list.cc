@@ -84,11 +84,17 @@ NeighbourList<dim>::NeighbourList(const ContactSurface<dim> &contact_surface, st
 template <int dim>
 void NeighbourList<dim>::rebuild(const Positions &positions)
 {
+  find_neighbours(positions);
+  record.note_search(positions);
+}
+
+template <int dim>
+void NeighbourList<dim>::find_neighbours(const Positions &positions)
+{
   Boxes boxes(surface, positions);
   neighbours_.clear();
   for (unsigned int body = 0; body < surface.n_bodies; ++body)
     add_neighbours_of_body(body, boxes);
-  record.note_search(positions);
 }
 
 template <int dim>

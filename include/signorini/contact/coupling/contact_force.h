@@ -114,6 +114,13 @@ public:
   /// What acts on this rank's facets; positions in it are from the surface's origin.
   const contact::ContactPotential<dim> &surface_potential() const { return potential; }
 
+  /// What the potential remembers between two steps, for boost's archives.
+  template <typename Archive>
+  void serialize(Archive &archive, unsigned int /*version*/)
+  {
+    archive &potential;
+  }
+
 private:
   /// Puts the obstacles where they are at that time.
   void move_obstacles(double time);

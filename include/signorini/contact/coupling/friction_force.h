@@ -63,6 +63,13 @@ public:
   /// See contact::Friction::remember().
   void remember(std::vector<contact::PlacedSlip<dim>> slips);
 
+  /// What this rank's points remember, for boost's archives.
+  template <typename Archive>
+  void serialize(Archive &archive, unsigned int /*version*/)
+  {
+    archive &friction;
+  }
+
 private:
   const ContactForce<dim> *contact;
   contact::Friction<dim> friction;

@@ -97,6 +97,13 @@ public:
     return potential.sum_by_pair([this](const NearPair &near) { return force_of(near); });
   }
 
+  /// What the points remember between two steps, for boost's archives.
+  template <typename Archive>
+  void serialize(Archive &archive, unsigned int /*version*/)
+  {
+    archive &history &old_positions &old_shifts;
+  }
+
 private:
   using NearPair = typename ContactPotential<dim>::NearPair;
 

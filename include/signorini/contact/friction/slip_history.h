@@ -16,6 +16,12 @@ struct PointSlip
   SpatialVector<dim> normal = SpatialVector<dim>::Zero();  ///< of the target; zero without contact
 
   bool is_touching() const { return normal != SpatialVector<dim>::Zero(); }
+
+  template <typename Archive>
+  void serialize(Archive &archive, unsigned int /*version*/)
+  {
+    archive &elastic &normal;
+  }
 };
 
 /// A point of a pair in the step under way.
@@ -30,6 +36,12 @@ struct FrictionPoint
   SpatialVector<dim> direction = SpatialVector<dim>::Zero(); ///< of sliding at the last hold(); zero: none
   SpatialVector<dim> slid = SpatialVector<dim>::Zero();      ///< from one to the other [m]
   SpatialVector<dim> traction = SpatialVector<dim>::Zero();  ///< that it slid under [Pa]
+
+  template <typename Archive>
+  void serialize(Archive &archive, unsigned int /*version*/)
+  {
+    archive &before &now &held_limit &is_held &direction &slid &traction;
+  }
 };
 
 /// The friction of a point that is told by its place, so that points of another mesh can take it over.
@@ -62,6 +74,12 @@ public:
 
   Points bodies;    ///< one a body pair
   Points obstacles; ///< one an obstacle pair
+
+  template <typename Archive>
+  void serialize(Archive &archive, unsigned int /*version*/)
+  {
+    archive &bodies &obstacles &body_keys &obstacle_keys &parted_bodies &parted_obstacles &n_renewals;
+  }
 
 private:
   using Keys = std::vector<PairKey<dim>>;

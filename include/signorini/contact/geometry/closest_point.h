@@ -12,6 +12,12 @@ struct ClosestPoint
   LocalPoint<dim> xi;          ///< its local coordinates, on a side or in a corner exactly where held there
   SpatialVector<dim> position; ///< the foot y(ξ)
   double distance = 0.;        ///< |x − y|
+
+  template <typename Archive>
+  void serialize(Archive &archive, unsigned int /*version*/)
+  {
+    archive &xi &position &distance;
+  }
 };
 
 /// Minimises |x − y(ξ)| over the facet, its edges and its corners, to round-off. Robust for warped and

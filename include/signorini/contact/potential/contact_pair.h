@@ -23,6 +23,12 @@ struct ContactPair
   double offset = 0.;             ///< λ/k_A of the point's multiplier, added to its depth [m]
   double damping = 0.;            ///< 2ξ√(k_A m_A) [Pa s/m]
   double distance_when_made = 0.; ///< of the point from the target's surface [m]
+
+  template <typename Archive>
+  void serialize(Archive &archive, unsigned int /*version*/)
+  {
+    archive &facet &target &neighbours &xi &shape &area &stiffness &offset &damping &distance_when_made;
+  }
 };
 
 /// What tells a pair from all others and stays when pairs are made anew: facet, target, ξ.
@@ -50,6 +56,12 @@ struct PairFoot
   unsigned int facet = 0;                                  ///< bodies only: the target's closest facet, …
   ClosestPoint<dim> closest;                               ///< … the foot on it …
   std::array<double, Facet<dim>::max_n_nodes> shape{};     ///< … and its shape functions there
+
+  template <typename Archive>
+  void serialize(Archive &archive, unsigned int /*version*/)
+  {
+    archive &depth &gap &normal &position &facet &closest &shape;
+  }
 };
 
 /// The nodes a pair acts on, with weights B so that g = Σ_a B_a x_a (+ a point fixed in space, for

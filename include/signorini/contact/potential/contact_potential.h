@@ -207,6 +207,15 @@ public:
   /// Sums the forces that `force` gives for the contactors of all pairs in contact.
   PairForces<dim> sum_by_pair(const std::function<SpatialVector<dim>(const NearPair &)> &force) const;
 
+  /// The pairs and all that they were last evaluated to, for boost's archives.
+  template <typename Archive>
+  void serialize(Archive &archive, unsigned int /*version*/)
+  {
+    archive &pairs &places &places_before &has_pairs &is_evaluated;
+    archive &evaluated_positions &body_feet &obstacle_feet &obstacle_hessians;
+    archive &start_depths &linear_time_step;
+  }
+
 private:
   using ObstacleFoot = typename Obstacle<dim>::Foot;
 

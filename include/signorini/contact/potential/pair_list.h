@@ -73,6 +73,17 @@ public:
 
   bool is_excluded_obstacle(unsigned int body, unsigned int obstacle) const;
 
+  /// All that the list remembers but multipliers, for boost's archives.
+  template <typename Archive>
+  void serialize(Archive &archive, unsigned int /*version*/)
+  {
+    Positions shifts = shifts_of_obstacles;
+    archive &settings_.penalty_factor &shifts &shifts_at_search &neighbour_list;
+    archive &body_pairs_ &obstacle_pairs_ &n_renewals_ &positions_at_renewal;
+    if (Archive::is_loading::value)
+      move_obstacles(shifts);
+  }
+
 private:
   struct FacetPoint
   {

@@ -46,8 +46,19 @@ public:
   const std::vector<FacetNeighbours> &neighbours() const { return neighbours_; }
   unsigned int n_rebuilds() const { return record.n_searches(); }
 
+  /// The record of the last search, from which its neighbours are found again, for boost's archives.
+  template <typename Archive>
+  void serialize(Archive &archive, unsigned int /*version*/)
+  {
+    archive &record;
+    if (Archive::is_loading::value && record.n_searches() > 0)
+      find_neighbours(record.positions());
+  }
+
 private:
   struct Boxes;
+
+  void find_neighbours(const Positions &positions);
 
   /// How far from its box a facet's neighbours must be looked for.
   double search_distance(unsigned int facet) const;

@@ -38,6 +38,14 @@ public:
 
   unsigned int n_searches() const { return n_searches_; }
 
+  const Positions &positions() const { return positions_at_search; }
+
+  template <typename Archive>
+  void serialize(Archive &archive, unsigned int /*version*/)
+  {
+    archive &positions_at_search &n_searches_;
+  }
+
 private:
   double skin;
   Positions positions_at_search;

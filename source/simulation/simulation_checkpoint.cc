@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// What a Simulation saves on its way, and how it goes on from there.
+#include "signorini/base/exceptions.h"
+#include "signorini/output/archive.h"
+#include "signorini/parameters/checkpoint_parameters.h"
+#include "signorini/simulation/simulation.h"
+
+#include <fmt/core.h>
+
+#include <sstream>
+
+namespace signorini
+{
+template <int dim>
+template <typename Archive>
+void Simulation<dim>::archive_run(Archive &archive)
+{
+  std::vector<double> densities;
+  for (const MaterialParameters &material : scene.materials)
+    densities.push_back(material.density);
+  std::vector<dealii::CellId::binary_type> ids = discretization->hexahedron_ids();
+  std::size_t n_owned_dofs = discretization->owned_dofs.n_elements();
+  archive &results &densities &ids &n_owned_dofs;
+  if (Archive::is_loading::value)
+  {
+    for (unsigned int body = 0; body < scene.n_bodies(); ++body)
+      scene.materials[body].density = densities[body];
+    build_as_saved(ids, n_owned_dofs);
+  }
+  archive &state.time &state.displacement;
+  if (is_in_motion())
+    archive &state.velocity;
+  archive &*forces.elasticity;
+  for (const auto &contact : forces.surface_contacts)
+    archive &*contact;
+  for (const auto &friction : forces.frictions)
+    archive &*friction;
+  if (quasi_static_solver)
+    archive &*quasi_static_solver;
+  if (explicit_solver)
+    archive &*explicit_solver;
+  if (implicit_solver)
+    archive &*implicit_solver;
+  archive &largest_energy &step_length &next_adaptation_step &next_adaptation_time;
+  archive &has_warned_of_depth &time_of_fields;
+  constexpr int none = -1;
+  int cycle = refinement_cycle ? static_cast<int>(*refinement_cycle) : none;
+  archive &cycle;
+  if (Archive::is_loading::value && cycle != none)
+    refinement_cycle = cycle;
+  archive &*fields &statistics_size &run_time;
+}
+
+template <int dim>
+void Simulation<dim>::build_as_saved(const std::vector<dealii::CellId::binary_type> &hexahedron_ids,
+                                     std::size_t n_owned_dofs)
+{
+  discretization->restore(hexahedron_ids);
+  const bool is_other = discretization->owned_dofs.n_elements() != n_owned_dofs;
+  if (dealii::Utilities::MPI::max(static_cast<int>(is_other), communicator) == 1)
+    throw FileError(
+        Complaint("the mesh is not that of the checkpoint")
+            .found(fmt::format("{} degrees of freedom on a rank", discretization->owned_dofs.n_elements()))
+            .expected(std::to_string(n_owned_dofs))
+            .advise("take the mesh files that the run began with, or run again from the start"));
+  build_on_mesh();
+  state.displacement = discretization->make_vector();
+  if (is_in_motion())
+    state.velocity = discretization->make_vector();
+  if (std::holds_alternative<QuasiStaticParameters>(parameters.solver))
+    make_quasi_static_solver();
+  else if (std::holds_alternative<ImplicitParameters>(parameters.solver))
+    make_implicit_solver();
+  else
+    make_explicit_solver();
+}
+
+template <int dim>
+void Simulation<dim>::save()
+{
+  if (!parameters.checkpoint)
+    return;
+  const auto section = run_time.enter("checkpoint");
+  if (statistics)
+    statistics_size = statistics->size();
+  std::ostringstream stream;
+  {
+    boost::archive::binary_oarchive archive(stream);
+    const std::map<std::string, std::string> entries = scene_entries(*text);
+    archive &entries;
+    archive_run(archive);
+  }
+  checkpoint.write(stream.str());
+  run_time_of_checkpoint = run_time.total();
+  time_of_checkpoint = state.time;
+}
+
+template <int dim>
+void Simulation<dim>::save_when_due()
+{
+  if (!parameters.checkpoint)
+    return;
+  const bool is_due = run_time.total() - run_time_of_checkpoint >= parameters.checkpoint->interval;
+  if (dealii::Utilities::MPI::broadcast(communicator, is_due, 0))
+    save();
+}
+
+template <int dim>
+void Simulation<dim>::resume()
+{
+  const Checkpoint::Found found = checkpoint.read();
+  std::istringstream stream(found.content);
+  try
+  {
+    boost::archive::binary_iarchive archive(stream);
+    std::map<std::string, std::string> entries;
+    archive &entries;
+    check_unchanged(*text, entries);
+    progress.open_log(parameters.output.directory, Progress::EarlierLog::continued);
+    archive_run(archive);
+  }
+  catch (const boost::archive::archive_exception &)
+  {
+    throw FileError(Complaint("the checkpoint was written by another build of the program")
+                        .at(found.slot)
+                        .advise("take that one, or run again from the start, without --resume"));
+  }
+  is_resumed = true;
+  forces.elasticity->update(state);
+  for (const auto &load : forces.loads)
+    load->update(state);
+  if (is_in_motion())
+  {
+    const double end = std::visit([](const auto &solver) { return solver.end_time; }, parameters.solver);
+    next_row = next_output(std::max(1u, parameters.output.n_statistics), end);
+    next_field = next_output(std::max(1u, parameters.output.n_fields), end);
+  }
+  run_time_of_checkpoint = run_time.total();
+  time_of_checkpoint = state.time;
+  for (const std::string &fault : found.faults)
+    warn(fmt::format("the last checkpoint is not used: {}", fault));
+  progress.say(
+      fmt::format("Resumed from {} at t = {:.6g}, after {} steps", found.slot, state.time, results.n_steps));
+}
+
+template class Simulation<2>;
+template class Simulation<3>;
+} // namespace signorini
