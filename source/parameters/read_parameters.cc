@@ -160,16 +160,14 @@ void check_implicit_contact(const ParameterText &text, const Parameters &paramet
 void check_plastic(const ParameterText &text, const Parameters &parameters)
 {
   for (const BodyParameters &body : parameters.bodies)
-    for (const std::string path : {"Implicit", "Adaptivity", "Exact solution"})
+    for (const std::string path : {"Adaptivity", "Exact solution"})
       if (body.material.model == MaterialParameters::Model::plastic && text.find_subsection(path) != nullptr)
         throw InputError(Complaint(fmt::format("'Model = J2 plastic' contradicts '{}': {}", path,
                                                path == "Exact solution" ? "all of them are of elastic bodies"
                                                                         : "they do not work together yet"))
                              .at(text.where("Body " + body.name + "/Material", "Model"))
                              .found(fmt::format("'{}' stands at {}", path, text.where(path)))
-                             .advise(path == "Implicit"
-                                         ? "run 'Explicit' or 'Quasi-static', or set Model = neo-Hookean"
-                                         : "remove the subsection, or set Model = neo-Hookean"));
+                             .advise("remove the subsection, or set Model = neo-Hookean"));
 }
 
 void check_contact_error(const ParameterText &text, const Parameters &parameters)

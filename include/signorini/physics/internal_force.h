@@ -40,7 +40,8 @@ public:
   std::vector<Eigen::Matrix3d> point_stresses() const;
 
   /// Makes the state of the last update() the one that further yielding starts from. Returns the work done in
-  /// yielding since the last call, of all ranks together [J; J/m in 2-D] (collective). Not with a step start.
+  /// yielding since the last call, of all ranks together [J; J/m in 2-D] (collective). With a step start that
+  /// is the state in the middle of the step.
   double commit();
 
   /// Whether any body may yield.
