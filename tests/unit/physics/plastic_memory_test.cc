@@ -127,7 +127,7 @@ TEST(PlasticStates, AreRecalledFromWhatInterpolationMakesOfTheirMemories)
   EXPECT_LT((back.inverse_metric - one.inverse_metric).norm(), 1e-14);
   EXPECT_EQ(back.equivalent_strain, one.equivalent_strain);
 
-  for (const double share : {-.5, .3, 1.7})
+  for (const double share : {.3, .7})
   {
     J2Plastic<3>::Memory between;
     for (unsigned int i = 0; i < between.size(); ++i)
@@ -135,17 +135,15 @@ TEST(PlasticStates, AreRecalledFromWhatInterpolationMakesOfTheirMemories)
     const Eigen::Matrix3d there = (1. - share) * gradient + share * other_gradient;
     const PlasticState state = law.recall(there, between);
     const Eigen::Matrix3d metric = Eigen::Matrix3d::Identity() + state.inverse_metric;
-    if (between[6] <= 0.)
-    {
-      EXPECT_EQ(state.inverse_metric.norm(), 0.);
-      continue;
-    }
     EXPECT_NEAR(metric.determinant(), 1., 1e-12);
     EXPECT_EQ(metric.llt().info(), Eigen::Success);
     J2Plastic<3> hard{3., 7., 100., .5, &state};
     for (unsigned int i = 0; i < between.size(); ++i)
       EXPECT_NEAR(hard.memory(there)[i], between[i], 1e-13);
   }
+  J2Plastic<3>::Memory below_none = of_one;
+  below_none[6] = -1e-3;
+  EXPECT_EQ(law.recall(gradient, below_none).inverse_metric.norm(), 0.);
 }
 
 TEST(PlasticStates, KeepTheirDigitsWhereStrainsAreSmall)
@@ -154,7 +152,8 @@ TEST(PlasticStates, KeepTheirDigitsWhereStrainsAreSmall)
   H(0, 0) = 1e-12;
   const PlasticState state =
       J2Plastic<3>::recall(H, {0., 0., 0., 0., 0., 0., 1e-12}); // all of the shape yielded
-  EXPECT_NEAR(state.inverse_metric(0, 0), -4. / 3. * 1e-12, 1e-26);
-  EXPECT_NEAR(state.inverse_metric(1, 1), 2. / 3. * 1e-12, 1e-26);
+  // Exact but for the square of the strain.
+  EXPECT_NEAR(state.inverse_metric(0, 0), -4. / 3. * 1e-12, 1e-23);
+  EXPECT_NEAR(state.inverse_metric(1, 1), 2. / 3. * 1e-12, 1e-23);
 }
 } // namespace
