@@ -86,6 +86,7 @@ void Simulation<dim>::adapt_mesh()
 {
   const auto section = run_time.enter("refinement");
   auto slips = place_slips();
+  PointValues memory = forces.elasticity->memory();
   const std::vector<PlacedSimplexMesh> new_meshes =
       discretization->tetrahedra
           ? make_adapted_meshes(results.estimate, *parameters.adaptivity, parameters.bodies, *discretization)
@@ -96,7 +97,7 @@ void Simulation<dim>::adapt_mesh()
     if (surface_map)
       level_curved_contact(estimator->boundary_faces(), estimator->contact_pressures(),
                            results.penalty_factor, *surface_map, *discretization);
-    discretization->adapt({&state.displacement});
+    discretization->adapt({&state.displacement}, memory);
   }
   if (discretization->tetrahedra)
     discretization->replace_tetrahedra(new_meshes, {&state.displacement});
@@ -104,7 +105,9 @@ void Simulation<dim>::adapt_mesh()
   // New supported nodes have values between those of the old ones, not their own.
   supports->impose(state.time, state.displacement);
   discretization->distribute(state.displacement);
-  balance_work({&state.displacement});
+  balance_work({&state.displacement}, memory);
+  forces.elasticity->update(state);
+  forces.elasticity->remember(memory);
   remember_slips(std::move(slips));
   make_quasi_static_solver();
   fields->set_mesh(*discretization, map_of_pressures());
@@ -112,13 +115,14 @@ void Simulation<dim>::adapt_mesh()
 }
 
 template <int dim>
-void Simulation<dim>::balance_work(const std::vector<Vector *> &values)
+void Simulation<dim>::balance_work(const std::vector<Vector *> &values, PointValues &memory)
 {
   if (dealii::Utilities::MPI::n_mpi_processes(communicator) == 1)
     return;
   for (const auto &contact : forces.contacts)
     contact->renew(state);
-  if (discretization->balance(find_cell_work(*discretization, estimator->boundary_faces(), forces), values))
+  if (discretization->balance(find_cell_work(*discretization, estimator->boundary_faces(), forces), values,
+                              memory))
     build_on_mesh();
 }
 

@@ -42,7 +42,7 @@ void Simulation<dim>::archive_run(Archive &archive)
   if (implicit_solver)
     archive &*implicit_solver;
   archive &largest_energy &step_length &next_adaptation_step &next_adaptation_time;
-  archive &has_warned_of_depth &time_of_fields;
+  archive &has_warned_of_depth &has_warned_of_unseen &time_of_fields;
   constexpr int none = -1;
   int cycle = refinement_cycle ? static_cast<int>(*refinement_cycle) : none;
   archive &cycle;

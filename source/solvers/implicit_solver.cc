@@ -241,6 +241,7 @@ void ImplicitSolver<dim>::accept(const State &state)
   EnergyLedger &energy = this->energy_ledger;
   energy.work_of_loads += load_force * way;
   energy.contact_loss -= contact_force * way + contact_energy - contact_energy_before;
+  energy.plastic_work += commit_yielding(state);
   if (!forces->moving_contacts.empty())
     book_obstacles(state);
   for (const auto &friction : forces->frictions)
@@ -251,6 +252,20 @@ void ImplicitSolver<dim>::accept(const State &state)
   }
   if (!supports->entries().empty())
     book_supports(state);
+}
+
+template <int dim>
+double ImplicitSolver<dim>::commit_yielding(const State &state)
+{
+  // Bodies pass through the middle of the step, where their stress acted, and yield on either half of the
+  // way.
+  forces->elasticity->set_step_start(&before.displacement);
+  forces->elasticity->update(state);
+  double work = forces->elasticity->commit();
+  forces->elasticity->set_step_start(nullptr);
+  forces->elasticity->update(state);
+  work += forces->elasticity->commit();
+  return work;
 }
 
 template <int dim>

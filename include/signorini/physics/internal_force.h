@@ -40,8 +40,14 @@ public:
   std::vector<Eigen::Matrix3d> point_stresses() const;
 
   /// Makes the state of the last update() the one that further yielding starts from. Returns the work done in
-  /// yielding since the last call, of all ranks together [J; J/m in 2-D] (collective). Not with a step start.
+  /// yielding since the last call, of all ranks together [J; J/m in 2-D] (collective). With a step start that
+  /// is the state in the middle of the step.
   double commit();
+
+  /// What all points remember, to be carried to another mesh, and taken there: J2Plastic::memory() at the
+  /// last update(), zero in bodies that do not yield; nothing where none does.
+  PointValues memory() const;
+  void remember(const PointValues &memory);
 
   /// Whether any body may yield.
   bool has_plasticity() const;
@@ -71,6 +77,7 @@ public:
 
 private:
   using PlasticKernel = CellKernel<dim, J2Plastic<dim>>;
+  static constexpr unsigned int n_remembered = std::tuple_size_v<typename J2Plastic<dim>::Memory>;
   using Kernel =
       std::variant<CellKernel<dim, LinearElastic<dim>>, CellKernel<dim, NeoHookean<dim>>, PlasticKernel>;
 

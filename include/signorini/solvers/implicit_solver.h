@@ -66,6 +66,8 @@ private:
   void compute_forces(const State &state);
   void compute_velocities(State &state);
   double norm_by_mass(const Vector &velocity) const;
+  /// Lets the bodies remember how the step made them yield; returns the plastic work [J; J/m in 2-D].
+  double commit_yielding(const State &state);
   void book_obstacles(const State &state);
   void book_supports(const State &state);
 
