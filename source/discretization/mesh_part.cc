@@ -5,6 +5,7 @@
 #include <deal.II/fe/mapping_fe_field.h>
 
 #include <algorithm>
+#include <utility>
 
 namespace signorini
 {
@@ -20,12 +21,15 @@ template <int dim>
 void MeshPart<dim>::number_dofs()
 {
   dof_handler.distribute_dofs(element);
-  the_own_cells.clear();
+  std::vector<std::pair<dealii::CellId, Cell>> sorted;
   for (const auto &cell : dof_handler.active_cell_iterators())
     if (cell->is_locally_owned())
-      the_own_cells.push_back(cell);
-  std::sort(the_own_cells.begin(), the_own_cells.end(),
-            [](const Cell &one, const Cell &other) { return one->id() < other->id(); });
+      sorted.emplace_back(cell->id(), cell);
+  std::sort(sorted.begin(), sorted.end(),
+            [](const auto &one, const auto &other) { return one.first < other.first; });
+  the_own_cells.clear();
+  for (const auto &[id, cell] : sorted)
+    the_own_cells.push_back(cell);
   sort_dofs();
   dealii::DoFTools::extract_locally_relevant_dofs(dof_handler, relevant_dofs);
 }

@@ -8,9 +8,10 @@
 namespace signorini
 {
 template <int dim>
-PointTransfer<dim>::PointTransfer(const HexahedralPart<dim> &part, unsigned int n_components,
+PointTransfer<dim>::PointTransfer(const HexahedralPart<dim> &hexahedra, unsigned int n_components,
                                   const std::vector<double> &values)
-    : element(dealii::FE_DGQArbitraryNodes<dim>(dealii::QGauss<1>(part.element.degree + 1)), n_components),
+    : part(hexahedra),
+      element(dealii::FE_DGQArbitraryNodes<dim>(dealii::QGauss<1>(part.element.degree + 1)), n_components),
       dof_handler(part.mesh), old_values(make_vector()), transfer(dof_handler)
 {
   for_each_number([&](dealii::types::global_dof_index dof, std::size_t i) { old_values(dof) = values[i]; });
@@ -35,17 +36,17 @@ void PointTransfer<dim>::for_each_number(const Visit &visit) const
   const unsigned int n = element.n_dofs_per_cell(), n_components = element.n_components();
   std::vector<dealii::types::global_dof_index> dofs(n);
   std::size_t first = 0;
-  for (const auto &cell : dof_handler.active_cell_iterators())
-    if (cell->is_locally_owned())
+  for (const auto &cell : part.own_cells())
+  {
+    const typename MeshPart<dim>::Cell with_dofs(&part.mesh, cell->level(), cell->index(), &dof_handler);
+    with_dofs->get_dof_indices(dofs);
+    for (unsigned int i = 0; i < n; ++i)
     {
-      cell->get_dof_indices(dofs);
-      for (unsigned int i = 0; i < n; ++i)
-      {
-        const auto [component, point] = element.system_to_component_index(i);
-        visit(dofs[i], first + point * n_components + component);
-      }
-      first += n;
+      const auto [component, point] = element.system_to_component_index(i);
+      visit(dofs[i], first + point * n_components + component);
     }
+    first += n;
+  }
 }
 
 template <int dim>

@@ -22,10 +22,11 @@ class PointTransfer
 {
 public:
   /// Before the mesh changes, with the values of all own cells [own cell][point][component] (collective).
-  PointTransfer(const HexahedralPart<dim> &part, unsigned int n_components,
+  /// `hexahedra` must outlive this object.
+  PointTransfer(const HexahedralPart<dim> &hexahedra, unsigned int n_components,
                 const std::vector<double> &values);
 
-  /// The same on the mesh that has changed (collective).
+  /// The same on the mesh that has changed and been numbered anew (collective).
   std::vector<double> interpolate();
 
 private:
@@ -34,6 +35,7 @@ private:
   template <typename Visit>
   void for_each_number(const Visit &visit) const;
 
+  const HexahedralPart<dim> &part;
   const dealii::FESystem<dim> element;
   dealii::DoFHandler<dim> dof_handler;
   Vector old_values;
