@@ -94,7 +94,7 @@ void ErrorEstimator<dim>::find_unseen_contact(const State &state, ErrorEstimate 
   bool is_any = false;
   for (const auto &contact : forces->surface_contacts)
   {
-    const std::vector<unsigned int> unseen = contact->unseen_contact(state);
+    const std::vector<unsigned int> unseen = contact->unseen_contact(state, 0.);
     for (const BoundaryFace<dim> &face : faces)
       if (std::binary_search(unseen.begin(), unseen.end(), face.facet))
         is_any = result.is_contact_unseen[face.cell] = true;

@@ -180,7 +180,18 @@ void Simulation<dim>::estimate_error()
   largest_energy = std::max(largest_energy, estimate.energy);
   if (estimate.energy + estimate.discretization <= std::max(1e-8 * largest_energy, 1e-20 * stiffness))
     estimate.forget_errors();
-  if (estimate.is_any_contact_unseen && !parameters.adaptivity && !std::exchange(has_warned_of_unseen, true))
+  if (estimate.is_any_contact_unseen && !parameters.adaptivity)
+    warn_of_unseen_contact();
+}
+
+template <int dim>
+void Simulation<dim>::warn_of_unseen_contact()
+{
+  constexpr double unheeded_depth = .02; // over the skin: a hundredth of the thinnest layer
+  std::size_t n_unseen = 0;
+  for (const auto &contact : forces.surface_contacts)
+    n_unseen += contact->unseen_contact(state, unheeded_depth * contact->skin()).size();
+  if (dealii::Utilities::MPI::sum(n_unseen, communicator) > 0 && !std::exchange(has_warned_of_unseen, true))
     warn(fmt::format(
         "at t = {:.6g} a corner or an edge lies in what it touches, by more than a hundredth of an "
         "element, where no quadrature point feels it: raise Contact/Quadrature points, or refine "

@@ -146,6 +146,8 @@ private:
   void check_start(const typename SupportedDofs<dim>::Entry &entry) const;
   void measure_bodies();
   void estimate_error();
+  /// Once, where a corner lies too deep for what the contact feels of it (collective).
+  void warn_of_unseen_contact();
   void write_fields();
   /// Of the surface that contact pressures are known on; null where there are none.
   const SurfaceMap<dim> *map_of_pressures() const;

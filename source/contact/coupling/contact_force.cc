@@ -281,14 +281,13 @@ void ContactForce<dim>::add_row_sum_bounds(Vector &stiffness, Vector &damping) c
 }
 
 template <int dim>
-std::vector<unsigned int> ContactForce<dim>::unseen_contact(const State &state) const
+std::vector<unsigned int> ContactForce<dim>::unseen_contact(const State &state, double unheeded_depth) const
 {
   const ContactSurface<dim> &surface = map->surface();
   const std::vector<bool> is_active = potential.active_facets();
   // At nodes of facets in contact any depth is known, elsewhere that to which contact goes anyway: with a
   // stiff penalty a corner at the rim may lie in the other side a little while no point does.
-  const double unheeded = .02 * potential.pair_list().skin(); // a hundredth of the thinnest layer
-  std::vector<double> known_depth(surface.n_nodes(), std::max(measure().max_penetration, unheeded));
+  std::vector<double> known_depth(surface.n_nodes(), std::max(measure().max_penetration, unheeded_depth));
   for (unsigned int f = 0; f < surface.facets.size(); ++f)
     for (unsigned int i = 0; i < surface.facets[f].n_nodes(); ++i)
       if (is_active[f])

@@ -369,33 +369,6 @@ TEST(Depth, IsMinusInfinityWhereAllFacetsAreBeyondTheCutoff)
             -infinity);
 }
 
-/// Whichever of them comes first, and whatever round-off makes of their distances.
-TEST(Depth, OfEquallyCloseFacetsThatWhichFacesTheContactorCounts)
-{
-  const SpatialVector<2> tip(0.3, 0.7), left(-0.1, 1.), right(0.1, 1.);
-  for (const bool left_comes_first : {true, false})
-  {
-    Surface<2> spike; // points down
-    const auto add_flank = [&](const bool is_left)
-    { is_left ? spike.add_patch(tip + left, {-left}) : spike.add_patch(tip, {right}); };
-    add_flank(left_comes_first);
-    add_flank(!left_comes_first);
-    for (const bool looks_left : {true, false})
-      for (const double beside : {0., 1e-13, -1e-13})
-      {
-        Surface<2> all = spike; // and the contactor, whose outward normal points to the left or to the right
-        all.add_patch(looks_left ? SpatialVector<2>(0.3, 0.8) : SpatialVector<2>(0.3, 0.6),
-                      {SpatialVector<2>(0., looks_left ? -0.2 : 0.2)});
-        const unsigned int candidates[] = {0, 1};
-        const SurfacePlace<2> contactor{2, LocalPoint<2>::Constant(.25)};
-        const SurfaceFoot<2> foot =
-            find_foot(all.facets, all.positions, candidates, 2, {0.3 + beside, 0.75}, infinity, &contactor);
-        EXPECT_EQ(foot.facet == 0, looks_left != left_comes_first);
-        EXPECT_NEAR(foot.depth, 0.05 * 0.1 / std::sqrt(1.01), 1e-11);
-      }
-  }
-}
-
 TEST(Depth, HasNoInsideBesideTheRimOfAnOpenSurface)
 {
   for (const FacetType type : {FacetType::tensor_product, FacetType::triangle})

@@ -75,9 +75,12 @@ public:
   /// are those of the linear functions of the corners [Pa] (collective).
   std::vector<std::optional<double>> nodal_pressures() const;
 
-  /// This rank's facets in a contact that they are too large to see at that state, see
-  /// contact::find_unseen_contact() (collective).
-  std::vector<unsigned int> unseen_contact(const State &state) const;
+  /// This rank's facets in a contact that they are too large to see at that state, and that is deeper than
+  /// `unheeded_depth` [m], see contact::find_unseen_contact() (collective).
+  std::vector<unsigned int> unseen_contact(const State &state, double unheeded_depth) const;
+
+  /// A length within which contact is looked for [m]: half the thinnest layer of cells.
+  double skin() const { return potential.pair_list().skin(); }
 
   /// See ContactPotential::facet_errors(); non-zero for this rank's facets only.
   std::vector<double> facet_errors() const { return potential.facet_errors(); }
