@@ -86,7 +86,6 @@ void Simulation<dim>::adapt_mesh()
 {
   const auto section = run_time.enter("refinement");
   auto slips = place_slips();
-  PointValues memory = forces.elasticity->memory();
   const std::vector<PlacedSimplexMesh> new_meshes =
       discretization->tetrahedra
           ? make_adapted_meshes(results.estimate, *parameters.adaptivity, parameters.bodies, *discretization)
@@ -97,7 +96,7 @@ void Simulation<dim>::adapt_mesh()
     if (surface_map)
       level_curved_contact(estimator->boundary_faces(), estimator->contact_pressures(),
                            results.penalty_factor, *surface_map, *discretization);
-    discretization->adapt({&state.displacement}, memory);
+    discretization->adapt({&state.displacement});
   }
   if (discretization->tetrahedra)
     discretization->replace_tetrahedra(new_meshes, {&state.displacement});
@@ -105,9 +104,7 @@ void Simulation<dim>::adapt_mesh()
   // New supported nodes have values between those of the old ones, not their own.
   supports->impose(state.time, state.displacement);
   discretization->distribute(state.displacement);
-  balance_work({&state.displacement}, memory);
-  forces.elasticity->update(state);
-  forces.elasticity->remember(memory);
+  balance_work({&state.displacement});
   remember_slips(std::move(slips));
   make_quasi_static_solver();
   fields->set_mesh(*discretization, map_of_pressures());
@@ -115,14 +112,13 @@ void Simulation<dim>::adapt_mesh()
 }
 
 template <int dim>
-void Simulation<dim>::balance_work(const std::vector<Vector *> &values, PointValues &memory)
+void Simulation<dim>::balance_work(const std::vector<Vector *> &values)
 {
   if (dealii::Utilities::MPI::n_mpi_processes(communicator) == 1)
     return;
   for (const auto &contact : forces.contacts)
     contact->renew(state);
-  if (discretization->balance(find_cell_work(*discretization, estimator->boundary_faces(), forces), values,
-                              memory))
+  if (discretization->balance(find_cell_work(*discretization, estimator->boundary_faces(), forces), values))
     build_on_mesh();
 }
 

@@ -125,13 +125,18 @@ void Simulation<dim>::resume()
                         .at(found.slot)
                         .advise("take that one, or run again from the start, without --resume"));
   }
+  const double end = std::visit([](const auto &solver) { return solver.end_time; }, parameters.solver);
+  if (state.time > end)
+    throw InputError(Complaint("the end time lies before the checkpoint")
+                         .found(fmt::format("{:.6g} s", end))
+                         .expected(fmt::format("at least {:.6g} s, where {} goes on", state.time, found.slot))
+                         .advise("raise 'End time', or run from the start, without --resume"));
   is_resumed = true;
   forces.elasticity->update(state);
   for (const auto &load : forces.loads)
     load->update(state);
   if (is_in_motion())
   {
-    const double end = std::visit([](const auto &solver) { return solver.end_time; }, parameters.solver);
     next_row = next_output(std::max(1u, parameters.output.n_statistics), end);
     next_field = next_output(std::max(1u, parameters.output.n_fields), end);
   }

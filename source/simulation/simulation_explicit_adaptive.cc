@@ -51,13 +51,12 @@ void Simulation<dim>::adapt_in_explicit_run(double time_step)
   explicit_solver->take_stock(state);
   explicit_solver->suspend(state);
   auto slips = place_slips();
-  PointValues memory = forces.elasticity->memory();
   VectorAndMoment momentum_change;
   // Cells that contact is about to reach take all their levels at once.
   unsigned int n_rounds = 0;
   do
   {
-    const VectorAndMoment change = adapt_in_motion(scene, *discretization, state, memory);
+    const VectorAndMoment change = adapt_in_motion(scene, *discretization, state);
     for (unsigned int d = 0; d < 3; ++d)
     {
       momentum_change.vector[d] += change.vector[d];
@@ -65,9 +64,7 @@ void Simulation<dim>::adapt_in_explicit_run(double time_step)
     }
     build_on_mesh();
   } while (++n_rounds < adaptivity.max_levels && mark_in_motion(duration, OtherCells::as_they_are));
-  balance_work({&state.displacement, &state.velocity}, memory);
-  forces.elasticity->update(state);
-  forces.elasticity->remember(memory);
+  balance_work({&state.displacement, &state.velocity});
   remember_slips(std::move(slips));
 
   const std::unique_ptr<ExplicitSolver<dim>> before = std::move(explicit_solver);

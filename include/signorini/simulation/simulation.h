@@ -102,7 +102,7 @@ private:
   /// Whether the contact forces of every step are solved for.
   bool has_implicit_contact() const;
   /// Shares an adapted mesh out by the work of its cells, and builds what stands on it anew, where that pays.
-  void balance_work(const std::vector<Vector *> &values, PointValues &memory);
+  void balance_work(const std::vector<Vector *> &values);
   bool is_adaptation_due(double time_step) const;
   /// Flags cells for what is to come within `duration`; whether there are any.
   bool mark_in_motion(double duration, OtherCells others);

@@ -84,7 +84,7 @@ struct Approach
           collect_boundary_faces(built.discretization, &map), levels, built.state, 1.);
       if (!mark_cells_in_motion(is_near, others, ErrorEstimate(), adaptivity, levels, built.discretization))
         break;
-      adapt_in_motion(built.scene, built.discretization, built.state, built.memory);
+      adapt_in_motion(built.scene, built.discretization, built.state);
     }
     return n;
   }

@@ -39,12 +39,11 @@ protected:
       else if (cell->level() > 0 && std::sin(37. * cell->parent()->center()[0] + round) < 0.)
         cell->set_coarsen_flag();
     }
-    PointValues nothing;
-    discretization.adapt({}, nothing);
+    discretization.adapt({});
     std::vector<unsigned int> weights(discretization.cells.n_cells, 1);
     if (dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0)
       weights.assign(weights.size(), 4);
-    discretization.balance(weights, {}, nothing);
+    discretization.balance(weights, {});
   }
 };
 TYPED_TEST_SUITE(RestoredMeshOnRanks, AllCases);
@@ -93,16 +92,15 @@ TYPED_TEST(RestoredMeshOnRanks, MayHaveAFamilyOnTwoRanks)
   for (const auto &cell : adapted.hexahedra->own_cells())
     if (way_of(cell) == std::vector<unsigned int>{0, 0})
       cell->set_refine_flag();
-  PointValues nothing;
-  adapted.adapt({}, nothing);
+  adapted.adapt({});
   std::vector<unsigned int> weights;
   for (const auto &cell : adapted.hexahedra->own_cells())
     weights.push_back(way_of(cell) == std::vector<unsigned int>{0, n / 2 - 1} ? n * (n - 1) - n + 2 : 1);
-  adapted.balance(weights, {}, nothing);
+  adapted.balance(weights, {});
   for (const auto &cell : adapted.hexahedra->own_cells())
     if (cell->level() == 3)
       cell->set_coarsen_flag();
-  adapted.adapt({}, nothing);
+  adapted.adapt({});
   unsigned int n_own = 0;
   for (const auto &cell : adapted.hexahedra->own_cells())
     n_own += way_of(cell).at(0) == 0;
