@@ -141,7 +141,8 @@ class DamageTest(StoppedRunTest):
 
     def setUp(self):
         super().setUp()
-        self.stop(signal.SIGKILL, 20, 1, BAR, *STEPS, *SAVED_EACH_STEP)
+        # Not killed, which may leave one of the two half written.
+        self.stop(signal.SIGINT, 20, 1, BAR, *STEPS, *SAVED_EACH_STEP)
         newest = (self.path / "checkpoint/last").read_text()
         self.files = [self.path / "checkpoint" / slot / "rank_0" for slot in (newest, str(1 - int(newest)))]
 
@@ -160,6 +161,8 @@ class DamageTest(StoppedRunTest):
         self.assertEqual(times, sorted(set(times)))
 
     def test_a_killed_run_goes_on(self):
+        shutil.rmtree(self.path)
+        self.stop(signal.SIGKILL, 20, 1, BAR, *STEPS, *SAVED_EACH_STEP)
         done = self.resume()
         self.assertEqual(done.returncode, 0, done.stderr)
         self.check_end()
@@ -206,6 +209,13 @@ class DamageTest(StoppedRunTest):
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertEqual(self.statistics()[1][-1][0], 2.5)
         self.assertIn("set End time", (self.path / "parameters.prm").read_text())
+
+    def test_an_end_before_the_checkpoint_is_refused(self):
+        rows = self.n_rows()
+        done = self.resume("--set", "Quasi-static/End time=0.1")
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("the end time lies before the checkpoint", done.stderr)
+        self.assertEqual(self.n_rows(), rows)
 
     def test_another_number_of_ranks_is_refused(self):
         done = self.run_on(2, BAR, *STEPS, "--resume")
