@@ -266,8 +266,8 @@ void declare_contact(Declarations &declarations, const DeclarationScope &scope)
               "Automatic: face segments in quasi-static runs without friction, else face quadrature.");
   contact.add(
       "Quadrature points", or_word(integer_from(1, 8), "automatic"), "automatic", "",
-      "Quadrature points in each direction of a face. Automatic: 3; with friction on what has corners "
-      "8 in 2-D, 5 in 3-D, as a corner that digs in holds on to points far apart.");
+      "Quadrature points in each direction of a face. Automatic: 3; in quasi-static runs with friction "
+      "on what has corners 8 in 2-D, 5 in 3-D, as a corner that digs in holds on to points far apart.");
   contact.add("Excluded pairs", any_text(), "", "",
               "Pairs of bodies, or of a body and an obstacle, that ignore each other: a:b, c:d.");
   contact.add("Self-contact", any_text(), "", "",
