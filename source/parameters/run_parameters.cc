@@ -308,7 +308,8 @@ void declare_output(Declarations &declarations, const DeclarationScope &scope)
              "Directory of all results; made if it does not exist.");
   const bool is_study = scope.text.find_subsection("Study") != nullptr;
   output.add("Number of fields", integer_from(0, 100000), is_study ? "0" : "10", "",
-             "VTU files a run writes, beside the first; 0 by default in the runs of a 'Study'.");
+             "VTU files a run writes, beside the first, each at the first step (or load step) that has come "
+             "to its time; the last one always. 0 by default in the runs of a 'Study'.");
   output.add("Number of statistics rows", integer_from(1, 100000000), "200", "",
              "About how many rows of statistics.csv a run in motion writes.");
 }

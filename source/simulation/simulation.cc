@@ -206,10 +206,26 @@ const SurfaceMap<dim> *Simulation<dim>::map_of_pressures() const
 }
 
 template <int dim>
+unsigned int Simulation<dim>::next_output(unsigned int n, double end) const
+{
+  constexpr double round_off = 1e-9; // steps add up to the time
+  return static_cast<unsigned int>(std::floor(state.time / end * std::max(1u, n) * (1. + round_off))) + 1;
+}
+
+template <int dim>
+bool Simulation<dim>::is_due(unsigned int &next, unsigned int n, double end) const
+{
+  const bool has_come = next_output(n, end) > next || state.time >= end;
+  next = next_output(n, end);
+  return has_come;
+}
+
+template <int dim>
 void Simulation<dim>::write_fields()
 {
   const auto section = run_time.enter("output");
   fields->write(state, forces, results.estimate);
+  time_of_fields = state.time;
 }
 
 template class Simulation<2>;

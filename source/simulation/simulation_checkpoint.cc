@@ -27,6 +27,10 @@ void Simulation<dim>::archive_run(Archive &archive)
       scene.materials[body].density = densities[body];
     build_as_saved(ids, n_owned_dofs);
   }
+  Vector node_positions = discretization->node_positions;
+  archive &node_positions;
+  if (Archive::is_loading::value)
+    check_same_nodes(node_positions);
   archive &state.time &state.displacement;
   if (is_in_motion())
     archive &state.velocity;
@@ -73,6 +77,18 @@ void Simulation<dim>::build_as_saved(const std::vector<dealii::CellId::binary_ty
     make_implicit_solver();
   else
     make_explicit_solver();
+}
+
+template <int dim>
+void Simulation<dim>::check_same_nodes(const Vector &saved) const
+{
+  Vector difference = saved;
+  difference -= discretization->node_positions;
+  const double largest = difference.linfty_norm(), size = saved.linfty_norm();
+  if (largest > 1e-10 * size)
+    throw FileError(Complaint("the mesh is not that of the checkpoint")
+                        .found(fmt::format("a node {:.3g} m aside", largest))
+                        .advise("take the mesh files that the run began with, or run again from the start"));
 }
 
 template <int dim>
@@ -135,11 +151,8 @@ void Simulation<dim>::resume()
   forces.elasticity->update(state);
   for (const auto &load : forces.loads)
     load->update(state);
-  if (is_in_motion())
-  {
-    next_row = next_output(std::max(1u, parameters.output.n_statistics), end);
-    next_field = next_output(std::max(1u, parameters.output.n_fields), end);
-  }
+  next_row = next_output(parameters.output.n_statistics, end);
+  next_field = next_output(parameters.output.n_fields, end);
   run_time_of_checkpoint = run_time.total();
   time_of_checkpoint = state.time;
   for (const std::string &fault : found.faults)

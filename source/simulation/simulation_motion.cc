@@ -69,31 +69,17 @@ void Simulation<dim>::begin_records(MotionSolver<dim> &solver, double end)
 }
 
 template <int dim>
-unsigned int Simulation<dim>::next_output(unsigned int n, double end) const
-{
-  auto next = static_cast<unsigned int>(std::floor(state.time / end * n));
-  while (state.time >= end * next / n)
-    ++next;
-  return next;
-}
-
-template <int dim>
 void Simulation<dim>::record_when_due(MotionSolver<dim> &solver, double time_step, double end)
 {
-  const unsigned int n_rows = std::max(1u, parameters.output.n_statistics);
-  const unsigned int n_fields = std::max(1u, parameters.output.n_fields);
-  if (state.time >= end || state.time >= end * next_row / n_rows)
+  if (is_due(next_row, parameters.output.n_statistics, end))
   {
     solver.take_stock(state);
     record_motion(solver, time_step, end);
-    next_row = next_output(n_rows, end);
   }
-  if (state.time >= end || state.time >= end * next_field / n_fields)
+  if (is_due(next_field, parameters.output.n_fields, end))
   {
     estimate_error();
     write_fields();
-    time_of_fields = state.time;
-    next_field = next_output(n_fields, end);
   }
   if (!(state.time < end))
     return;

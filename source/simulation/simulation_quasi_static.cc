@@ -106,12 +106,18 @@ void Simulation<dim>::halve_load_step(double time, double smallest_step, const C
 {
   step_length *= 0.5;
   progress.say(fmt::format("load {:.5g}: {}; trying half the step", time, fault.what));
-  if (step_length < smallest_step)
-    throw NumericalError(
-        Complaint(fmt::format("no equilibrium beyond load parameter {:.6g}: {}", state.time, fault.what))
-            .at(fault.where)
-            .expected(fault.allowed)
-            .advise(fault.next_step));
+  if (!(step_length < smallest_step))
+    return;
+  if (time_of_fields < state.time)
+  {
+    quasi_static_solver->take_stock(state);
+    write_fields();
+  }
+  throw NumericalError(
+      Complaint(fmt::format("no equilibrium beyond load parameter {:.6g}: {}", state.time, fault.what))
+          .at(fault.where)
+          .expected(fault.allowed)
+          .advise(fault.next_step));
 }
 
 template <int dim>
@@ -133,7 +139,13 @@ void Simulation<dim>::run_quasi_static()
     if (!refinement_cycle)
     {
       save_when_due();
-      check_interruption([this]() { save(); });
+      check_interruption(
+          [this]()
+          {
+            save();
+            if (time_of_fields < state.time)
+              write_fields();
+          });
       const double n_load_steps_before = n_load_steps_done();
       const double time = end - state.time < step_length * (1. + 1e-9) ? end : state.time + step_length;
       if (const std::optional<Complaint> fault = solve_load_step(time))
@@ -153,7 +165,8 @@ void Simulation<dim>::run_quasi_static()
       adapt_to_load();
     record_quasi_static();
     say_equilibrium(end);
-    write_fields();
+    if (is_due(next_field, parameters.output.n_fields, end))
+      write_fields();
     step_length = std::min(largest_step, 2. * step_length);
   }
 }

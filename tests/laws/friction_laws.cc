@@ -134,11 +134,7 @@ TEST_P(FrictionLaws, PlaneSticksThenSlidesWithCoulombsForce)
       {
         constexpr int dim = decltype(dimension)::value;
         constexpr double coefficient = .3;
-        SpatialVector<dim> normal = SpatialVector<dim>::Unit(dim - 1);
-        normal[0] = .1;
-        normal.normalize();
-        SpatialVector<dim> along = RandomVectors<dim>(7).vector(1.);
-        along = (along - normal.dot(along) * normal).normalized();
+        const auto [normal, along] = PlaneDirections<dim>();
         Rubbing<dim> rubbing(scene, coefficient);
         double stiffness = 0., least_depth = 1.;
         rubbing.potential.for_each_overlap_above(0.,
@@ -296,11 +292,7 @@ TEST_P(FrictionLaws, APointThatComesSlipsFromTheTouchOn)
       [](const auto &scene, auto dimension)
       {
         constexpr int dim = decltype(dimension)::value;
-        SpatialVector<dim> normal = SpatialVector<dim>::Unit(dim - 1);
-        normal[0] = .1;
-        normal.normalize();
-        SpatialVector<dim> along = RandomVectors<dim>(7).vector(1.);
-        along = (along - normal.dot(along) * normal).normalized();
+        const auto [normal, along] = PlaneDirections<dim>();
         for (const double tangent : {.2, .4}) // of the angle it comes at, beside a coefficient of 0.3
         {
           Rubbing<dim> rubbing(scene, .3, SlidUnder::last_traction);

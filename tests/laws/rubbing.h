@@ -9,6 +9,21 @@ namespace signorini::test
 {
 inline constexpr double never_slides = 1e6; // coefficient of friction
 
+/// How the obstacle of Target::plane lies, and a way along it.
+template <int dim>
+struct PlaneDirections
+{
+  PlaneDirections()
+  {
+    normal[0] = .1;
+    normal.normalize();
+    along = RandomVectors<dim>(7).vector(1.);
+    along = (along - normal.dot(along) * normal).normalized();
+  }
+
+  SpatialVector<dim> normal = SpatialVector<dim>::Unit(dim - 1), along; ///< unit vectors
+};
+
 /// A scene in contact with its friction, at rest.
 template <int dim>
 struct Rubbing

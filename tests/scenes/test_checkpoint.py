@@ -7,6 +7,7 @@ import pathlib
 import shutil
 import signal
 import subprocess
+import tempfile
 import time
 import unittest
 
@@ -240,6 +241,44 @@ class DamageTest(StoppedRunTest):
         done = self.resume()
         self.assertEqual(done.returncode, 3)
         self.assertIn("there is no checkpoint to resume from", done.stderr)
+
+
+class OtherMeshTest(StoppedRunTest):
+    """A mesh file that has been changed meanwhile is not gone on with."""
+
+    STRESS = ROOT / "parameter_files/stress"
+
+    def setUp(self):
+        super().setUp()
+        self.mesh = pathlib.Path(self.enterContext(tempfile.TemporaryDirectory())) / "wedge.msh"
+        shutil.copy(self.STRESS / "meshes/wedge.msh", self.mesh)
+        self.run_command = [self.STRESS / "points.prm", "--set", "Explicit/End time=0.2",
+                            "--set", f"Body upper/Mesh/File={self.mesh}"]
+        self.stop(signal.SIGINT, 20, 1, *self.run_command, *SAVED)
+
+    def check_refused(self, found):
+        rows = self.n_rows()
+        done = self.run_program(*self.run_command, "--resume")
+        self.assertEqual(done.returncode, 3, done.stderr)
+        self.assertIn("the mesh is not that of the checkpoint", done.stderr)
+        self.assertIn(found, done.stderr)
+        self.assertEqual(self.n_rows(), rows)
+
+    def test_the_same_goes_on(self):
+        done = self.run_program(*self.run_command, "--resume")
+        self.assertEqual(done.returncode, 0, done.stderr)
+
+    def test_a_node_moved(self):
+        lines = self.mesh.read_text().splitlines()
+        node = lines.index("$Nodes") + 5
+        number, x, y, z = lines[node].split()
+        lines[node] = f"{number} {float(x) + 1e-6!r} {y} {z}"
+        self.mesh.write_text("\n".join(lines) + "\n")
+        self.check_refused("1e-06 m")
+
+    def test_another_mesh(self):
+        shutil.copy(self.STRESS / "meshes/spike.msh", self.mesh)
+        self.check_refused("degrees of freedom")
 
 
 if __name__ == "__main__":

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
-#include "signorini/base/exceptions.h"
 #include "signorini/base/types.h"
 
 #include <Eigen/Core>
@@ -30,20 +29,15 @@ void serialize(Archive &archive,
   archive &make_array(matrix.data(), matrix.size());
 }
 
-/// This rank's entries of a vector, which keeps its layout (collective). Throws FileError if the archive has
-/// another number of them.
+/// This rank's entries of a vector, which keeps its layout: that of the archive (collective).
 template <typename Archive>
 void serialize(Archive &archive, signorini::Vector &vector, unsigned int /*version*/)
 {
   std::size_t n_entries = vector.locally_owned_size();
   bool has_ghosts = vector.has_ghost_elements();
   archive &n_entries &has_ghosts;
-  if (n_entries != vector.locally_owned_size())
-    throw signorini::FileError(
-        signorini::Complaint("the mesh is not that of the checkpoint")
-            .found(std::to_string(vector.locally_owned_size()) + " degrees of freedom on a rank")
-            .expected(std::to_string(n_entries))
-            .advise("take the mesh files that the run began with, or run again from the start"));
+  Assert(n_entries == vector.locally_owned_size(),
+         dealii::ExcDimensionMismatch(n_entries, vector.locally_owned_size()));
   archive &make_array(vector.begin(), n_entries);
   if (!Archive::is_loading::value)
     return;

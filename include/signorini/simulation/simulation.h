@@ -86,8 +86,10 @@ private:
   void record_motion(const MotionSolver<dim> &solver, double time_step, double end_time);
   /// Throws NumericalError for an energy that is no number, and for a ledger that does not close.
   void check_ledger() const;
-  /// The first of `n` equal spans to the end time whose end is still to come.
+  /// The first of `n` equal spans to the end time (of one, if none) whose end is still to come.
   unsigned int next_output(unsigned int n, double end_time) const;
+  /// Whether the end of the span `next` of these has come; sets it to the one that is next.
+  bool is_due(unsigned int &next, unsigned int n, double end_time) const;
   /// Writes or reads all that the rest of the run depends on. Throws FileError.
   template <typename Archive>
   void archive_run(Archive &archive);
@@ -98,6 +100,7 @@ private:
   /// have as many of this rank's degrees of freedom as given.
   void build_as_saved(const std::vector<dealii::CellId::binary_type> &hexahedron_ids,
                       std::size_t n_owned_dofs);
+  void check_same_nodes(const Vector &saved) const;
   void make_explicit_solver();
   /// Whether the contact forces of every step are solved for.
   bool has_implicit_contact() const;
@@ -198,11 +201,11 @@ private:
   std::unique_ptr<FileLevels<dim>> file_levels;                ///< explicit runs with adaptivity
   unsigned int next_adaptation_step = 0;     ///< explicit runs: the mesh is adapted before this step,
   double next_adaptation_time = 0.;          ///< and before this time, to which contact has been foreseen [s]
-  unsigned int next_row = 1, next_field = 1; ///< runs in motion: of those that 'Output' asks for
+  unsigned int next_row = 1, next_field = 1; ///< of those that 'Output' asks for
   std::optional<unsigned int> refinement_cycle; ///< of a load step that is being adapted to
   double step_length = 0.;                      ///< quasi-static and implicit runs: that is tried next [s]
   bool has_warned_of_depth = false, has_warned_of_unseen = false;
-  double time_of_fields = 0.; ///< runs in motion: at which the last ones were written [s]
+  double time_of_fields = 0.; ///< at which the last ones were written [s]
   std::unique_ptr<Fields<dim>> fields;
   std::unique_ptr<Statistics> statistics; ///< on rank 0
   Checkpoint checkpoint;

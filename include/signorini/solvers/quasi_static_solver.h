@@ -55,6 +55,9 @@ public:
   /// Forces that the supports exert at the last equilibrium, on supported entries only [N].
   const Vector &reactions() const { return balance.reactions(); }
 
+  /// Brings forces and reactions to `state` (collective), as after a step that was given up.
+  void take_stock(const State &state) { balance.compute(state); }
+
   /// What is remembered from one equilibrium to the next, for boost's archives.
   template <typename Archive>
   void serialize(Archive &archive, unsigned int /*version*/)

@@ -15,6 +15,7 @@ namespace
 constexpr double pi = 3.14159265358979323846;
 constexpr double tie_tolerance = 1e-9;       ///< of places, relative to the facet's size
 constexpr double distance_tolerance = 1e-12; ///< of distances, likewise
+constexpr double flank_tolerance = 1e-4;     ///< of the distances from the two flanks of a spike, likewise
 
 template <int dim>
 struct Box
@@ -109,13 +110,20 @@ public:
 
   bool is_better(const FacetNodes<dim> &one, const LocalPoint<dim> &xi, const SurfaceFoot<dim> &other)
   {
-    if (!is_asked())
-      return false;
+    return is_asked() && cosine_to(one, xi) < cosine_to(other) - tie_tolerance;
+  }
+
+  /// Of the angle between the normals of the contactor and a facet: -1 if they face each other.
+  double cosine_to(const FacetNodes<dim> &nodes, const LocalPoint<dim> &xi)
+  {
     if (normal == SpatialVector<dim>::Zero())
       normal = normal_of(gather_nodes(facets[contactor->facet], positions), contactor->xi);
-    const SpatialVector<dim> other_normal =
-        normal_of(gather_nodes(facets[other.facet], positions), other.closest.xi);
-    return normal.dot(normal_of(one, xi)) < normal.dot(other_normal) - tie_tolerance;
+    return normal.dot(normal_of(nodes, xi));
+  }
+
+  double cosine_to(const SurfaceFoot<dim> &foot)
+  {
+    return cosine_to(gather_nodes(facets[foot.facet], positions), foot.closest.xi);
   }
 
 private:
@@ -164,6 +172,34 @@ SurfaceFoot<dim> find_closest_facet(const std::vector<Facet<dim>> &facets,
   return best;
 }
 
+/// For a point below the surface whose foot lies on the back of a spike, on the flank that looks the way the
+/// point's own surface does: its foot on the other flank, if that is hardly farther.
+template <int dim>
+SurfaceFoot<dim> turn_to_front(const SurfaceFoot<dim> &foot, const std::vector<Facet<dim>> &facets,
+                               const std::vector<SpatialVector<dim>> &positions,
+                               const unsigned int *candidates, const unsigned int n_candidates,
+                               const SpatialVector<dim> &x, Facing<dim> facing)
+{
+  constexpr double half = .5; // flanks are at most 60 degrees off
+  if (facing.cosine_to(foot) < half)
+    return foot;
+  SurfaceFoot<dim> front = foot;
+  front.closest.distance = std::numeric_limits<double>::infinity();
+  for (unsigned int c = 0; c < n_candidates; ++c)
+  {
+    const FacetNodes<dim> nodes = gather_nodes(facets[candidates[c]], positions);
+    const Box<dim> box = make_box(nodes);
+    const double limit = foot.closest.distance + flank_tolerance * box.half_width.norm();
+    if (box.squared_distance(x) > limit * limit)
+      continue;
+    const ClosestPoint<dim> closest = find_closest_point(nodes, x);
+    if (closest.distance <= std::min(limit, front.closest.distance) &&
+        facing.cosine_to(nodes, closest.xi) < -half)
+      front = {candidates[c], closest, closest.distance};
+  }
+  return std::isinf(front.closest.distance) ? foot : front;
+}
+
 /// All candidates that hold the place `foot`, together.
 template <int dim>
 Fan<dim> gather_fan(const std::vector<Facet<dim>> &facets, const std::vector<SpatialVector<dim>> &positions,
@@ -193,8 +229,8 @@ SurfaceFoot<dim> find_foot(const std::vector<Facet<dim>> &facets,
                            const unsigned int n_candidates, const SpatialVector<dim> &x, const double cutoff,
                            const SurfacePlace<dim> *contactor)
 {
-  SurfaceFoot<dim> foot = find_closest_facet(facets, positions, candidates, n_candidates, x, cutoff,
-                                             Facing<dim>(facets, positions, contactor));
+  const Facing<dim> facing(facets, positions, contactor);
+  SurfaceFoot<dim> foot = find_closest_facet(facets, positions, candidates, n_candidates, x, cutoff, facing);
   if (std::isinf(foot.closest.distance))
     return foot;
 
@@ -208,8 +244,11 @@ SurfaceFoot<dim> find_foot(const std::vector<Facet<dim>> &facets,
 
   // Beside the rim of an open surface there is no inside; below it there is.
   const double least = fan.is_closed() ? 0. : std::sqrt(0.5) * foot.closest.distance * fan.normal.norm();
-  foot.depth = outwards.dot(fan.normal) > least ? foot.closest.distance : -foot.closest.distance;
-  return foot;
+  const bool is_inside = outwards.dot(fan.normal) > least;
+  foot.depth = is_inside ? foot.closest.distance : -foot.closest.distance;
+  return is_inside && facing.is_asked()
+             ? turn_to_front(foot, facets, positions, candidates, n_candidates, x, facing)
+             : foot;
 }
 
 template SurfaceFoot<2> find_foot(const std::vector<Facet<2>> &, const std::vector<SpatialVector<2>> &,

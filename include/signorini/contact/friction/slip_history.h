@@ -40,7 +40,7 @@ struct FrictionPoint
   template <typename Archive>
   void serialize(Archive &archive, unsigned int /*version*/)
   {
-    archive &before &now &held_limit &is_held &direction &slid &traction;
+    archive &before &now &share &held_limit &is_held &direction &slid &traction;
   }
 };
 

@@ -36,9 +36,11 @@ struct SurfacePlace
 ///
 /// Of facets that are equally close, to 1e-12 of their size, the one whose normal points most against that of
 /// the surface at `contactor`, the place of `x`, is taken: a point on the middle axis of a spike belongs to
-/// the flank it faces. Without a contactor, or if they face it equally, the first candidate. All candidates
-/// that hold the foot take part in the sign, so the list must hold every facet within the foot's distance of
-/// `x`.
+/// the flank it faces. Without a contactor, or if they face it equally, the first candidate. A point inside a
+/// spike whose closest facet looks the way the contactor does (normals within 60°) belongs to one that faces
+/// it (likewise) and is farther by no more than 1e-4 of its size: what comes down just beyond the middle axis
+/// has not come through the flank behind it. All candidates that hold the foot take part in the sign, so the
+/// list must hold every facet within the foot's distance of `x`.
 ///
 /// Where the facets at the foot do not close around it (the rim of an open surface), only a point within 45°
 /// of being right below counts as inside; beside the rim there is no inside.
