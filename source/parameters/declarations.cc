@@ -168,7 +168,9 @@ std::string deciding_choice(const ParameterText &text, const Declarations &in_us
       return choice;
     }
   if (path == "Adaptivity")
-    return in_use.has_subsection("Explicit") ? "'Explicit'" : "'Quasi-static'";
+    for (const std::string run : {"Explicit", "Implicit", "Quasi-static"})
+      if (in_use.has_subsection(run))
+        return fmt::format("'{}'", run);
   return "the dimension";
 }
 } // namespace

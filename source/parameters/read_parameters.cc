@@ -126,6 +126,17 @@ void check_equilibrium_only(const ParameterText &text, const Parameters &paramet
                          .advise("give a number such as 2, or run 'Quasi-static'"));
 }
 
+void check_time_step(const ParameterText &text, const Parameters &parameters)
+{
+  const auto *run = std::get_if<ImplicitParameters>(&parameters.solver);
+  if (run && run->time_step > run->end_time)
+    throw InputError(Complaint("'Implicit/Time step' is longer than the run")
+                         .at(text.where("Implicit", "Time step"))
+                         .found(fmt::format("{} s", run->time_step))
+                         .expected(fmt::format("at most 'End time', {} s", run->end_time))
+                         .advise("shorten it; what takes less than several steps is not resolved"));
+}
+
 /// What steps with implicit contact do not have.
 void check_implicit_contact(const ParameterText &text, const Parameters &parameters)
 {
@@ -253,6 +264,7 @@ void check_together(const ParameterText &text, const Parameters &parameters)
     check_quasi_static(text, parameters);
   else
     check_equilibrium_only(text, parameters);
+  check_time_step(text, parameters);
   check_implicit_contact(text, parameters);
   check_plastic(text, parameters);
   check_contact_error(text, parameters);

@@ -95,7 +95,8 @@ const std::vector<RunEntry<ImplicitParameters>> &implicit_entries()
       {"Maximum iterations", integer_from(1, 10000), "50", "", "Newton iterations in one step.",
        &Run::max_iterations},
       {"Ledger tolerance", number_above(0.), "0.05", "",
-       "The run stops when the energy ledger is open by more than this share of the largest energy.",
+       "The run stops when the energy ledger is open by more than this share of the largest energy; a step "
+       "that opens it by a tenth of this is halved.",
        &Run::ledger_tolerance}};
   return entries;
 }
@@ -230,7 +231,7 @@ void declare_adaptivity(Declarations &declarations, const DeclarationScope &scop
     return;
   SubsectionDeclaration section(declarations, "Adaptivity",
                                 "Refinement of the mesh: where the estimated error is large, and in explicit "
-                                "runs where contact is coming.");
+                                "runs where contact is coming. Not with 'Implicit'.");
   const bool is_everything = scope.extent == Extent::everything;
   if (is_everything || scope.includes("Quasi-static"))
     declare_entries(quasi_static_adaptivity_entries(), section);

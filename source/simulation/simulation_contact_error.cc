@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace signorini
 {
@@ -82,6 +83,33 @@ std::optional<Complaint> Simulation<dim>::choose_penalty_factor(double time)
                              measure_contact().max_stiffness, results.n_iterations - n_before));
   }
   return {};
+}
+
+template <int dim>
+void Simulation<dim>::warn_of_lone_points()
+{
+  if (results.has_ledger || forces.surface_contacts.empty() || !forces.volume_contacts.empty())
+    return;
+  double largest_mean = 0.;
+  const std::vector<Facet<dim>> &facets = surface_map->surface().facets;
+  for (const auto &term : forces.surface_contacts)
+  {
+    const NodalPressures<dim> pressures = term->facet_pressures();
+    for (std::size_t f = 0; f < facets.size(); ++f)
+    {
+      const unsigned int n = facets[f].n_nodes();
+      largest_mean =
+          std::max(largest_mean, std::accumulate(pressures[f].begin(), pressures[f].begin() + n, 0.) / n);
+    }
+  }
+  largest_mean = dealii::Utilities::MPI::max(largest_mean, communicator);
+  constexpr double resolved = 2., round_off = 1e-6;
+  if (results.contact.max_pressure > resolved * largest_mean + round_off * results.max_pressure)
+    warn(fmt::format(
+        "the largest contact pressure, {:.3g} Pa, is that of single points; the mean of no face "
+        "exceeds {:.3g} Pa: contact is narrower than a face, or lies at an edge, or the facets of curved "
+        "faces do not fit each other. Forces are right, pressures and contact area are not: refine there",
+        results.contact.max_pressure, largest_mean));
 }
 
 template class Simulation<2>;

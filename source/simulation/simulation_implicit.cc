@@ -9,6 +9,15 @@
 
 namespace signorini
 {
+namespace
+{
+/// Of the energy ledger, by a single step.
+double largest_opening(const ImplicitParameters &run)
+{
+  return 0.1 * run.ledger_tolerance;
+}
+} // namespace
+
 template <int dim>
 std::optional<Complaint> Simulation<dim>::make_implicit_step(double time_step, bool may_be_unsteady)
 {
@@ -29,6 +38,9 @@ std::optional<Complaint> Simulation<dim>::make_implicit_step(double time_step, b
       implicit_solver->unsteadiness() > run.step_tolerance)
     fault = Complaint(fmt::format("velocities change otherwise than before by {:.2g} of the largest",
                                   implicit_solver->unsteadiness()));
+  if (!fault && !may_be_unsteady && implicit_solver->opening() > largest_opening(run))
+    fault = Complaint(fmt::format("the step opens the energy ledger by {:.2g} of the largest energy",
+                                  implicit_solver->opening()));
   if (fault)
     implicit_solver->reject(state);
   return fault;
@@ -76,7 +88,9 @@ void Simulation<dim>::run_implicit(const ImplicitParameters &run)
     if (run.end_time - state.time < 1e-9 * time_step)
       state.time = run.end_time;
     ++results.n_steps;
-    if (implicit_solver->unsteadiness() <= 0.5 * run.step_tolerance || run.step_tolerance == 0.)
+    const bool is_steady =
+        run.step_tolerance == 0. || implicit_solver->unsteadiness() <= 0.5 * run.step_tolerance;
+    if (is_steady && implicit_solver->opening() <= 0.1 * largest_opening(run))
       step_length = std::min(run.time_step, 2. * step_length);
     record_contact(measure_terms());
     record_when_due(*implicit_solver, time_step, run.end_time);

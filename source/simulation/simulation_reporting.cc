@@ -241,6 +241,7 @@ void Simulation<dim>::gather_results()
                                                               : std::numeric_limits<double>::infinity());
   warn_of_collisions();
   warn_of_turns();
+  warn_of_lone_points();
   constexpr double shallow = 0.1;
   if (results.max_penetration_over_thickness > shallow)
     warn(fmt::format("the largest penetration of the run, {:.3g} h, exceeds {} h: raise Contact/Penalty "

@@ -71,6 +71,7 @@ void ImplicitSolver<dim>::start(State &state)
   }
   forces->elasticity->update(state);
   take_stock(state);
+  elastic_energy_before = this->energy_ledger.elastic;
   this->open_ledgers();
   largest_speed = norm_by_mass(state.velocity);
 }
@@ -128,7 +129,10 @@ std::optional<Complaint> ImplicitSolver<dim>::step(double step_length, State &st
   }
   forces->elasticity->set_step_start(nullptr);
   if (is_solved)
+  {
+    measure_opening(state);
     return {};
+  }
   reject(state);
   return Complaint(newton.failure()).advise("shorten Implicit/Time step, or refine");
 }
@@ -220,6 +224,22 @@ void ImplicitSolver<dim>::compute_velocities(State &state)
 }
 
 template <int dim>
+void ImplicitSolver<dim>::measure_opening(const State &state)
+{
+  energy_opening = 0.;
+  if (forces->elasticity->has_plasticity())
+    return;
+  Vector way = state.displacement;
+  way -= before.displacement;
+  forces->elasticity->update(state);
+  elastic_energy = forces->elasticity->energy();
+  const double stored = elastic_energy + contact_energy + 0.5 * std::pow(norm_by_mass(state.velocity), 2),
+               scale = std::max(this->energy_ledger.largest, stored);
+  if (scale > 0.)
+    energy_opening = std::abs(elastic_energy - elastic_energy_before + inner_force * way) / scale;
+}
+
+template <int dim>
 void ImplicitSolver<dim>::reject(State &state)
 {
   state = before;
@@ -231,6 +251,7 @@ void ImplicitSolver<dim>::accept(const State &state)
 {
   accepted_change = change;
   accepted_time_step = time_step;
+  elastic_energy_before = elastic_energy;
   Vector way = state.displacement;
   way -= before.displacement;
   Vector middle = before.displacement;
@@ -241,7 +262,8 @@ void ImplicitSolver<dim>::accept(const State &state)
   EnergyLedger &energy = this->energy_ledger;
   energy.work_of_loads += load_force * way;
   energy.contact_loss -= contact_force * way + contact_energy - contact_energy_before;
-  energy.plastic_work += commit_yielding(state);
+  if (forces->elasticity->has_plasticity())
+    energy.plastic_work += commit_yielding(state);
   if (!forces->moving_contacts.empty())
     book_obstacles(state);
   for (const auto &friction : forces->frictions)

@@ -169,6 +169,8 @@ private:
   void print_results();
   /// Of a body that has turned though its law is not made for that.
   void warn_of_turns();
+  /// Where pressure stands on points that are fewer than those of a face.
+  void warn_of_lone_points();
   /// Of the first in which two passed through each other.
   void warn_of_collisions();
   void print_collisions();

@@ -42,6 +42,10 @@ public:
   /// long for.
   double unsteadiness() const { return change_of_rate; }
 
+  /// By how much the last step opens the energy ledger, whatever the sign, over the largest energy so far:
+  /// what the forces of its middle missed of the change of the elastic energy. 0 where bodies yield.
+  double opening() const { return energy_opening; }
+
   void take_stock(const State &state) override;
 
   unsigned int n_iterations() const { return newton.n_iterations(); }
@@ -53,7 +57,7 @@ public:
   {
     MotionSolver<dim>::serialize(archive, version);
     archive &newton &accepted_change &accepted_time_step;
-    archive &change_of_rate &largest_speed &contact_energy;
+    archive &change_of_rate &largest_speed &contact_energy &elastic_energy_before;
   }
 
 private:
@@ -65,6 +69,7 @@ private:
   bool settle_contact(State &state, const Report &report);
   void compute_forces(const State &state);
   void compute_velocities(State &state);
+  void measure_opening(const State &state);
   double norm_by_mass(const Vector &velocity) const;
   /// Lets the bodies remember how the step made them yield; returns the plastic work [J; J/m in 2-D].
   double commit_yielding(const State &state);
@@ -86,5 +91,7 @@ private:
   Vector change, accepted_change; ///< of the velocities in a step [m/s]
   double change_of_rate = 0., largest_speed = 0.;
   double contact_energy = 0., contact_energy_before = 0.;
+  double elastic_energy = 0., elastic_energy_before = 0.; ///< of bodies of which none yields [J]
+  double energy_opening = 0.;
 };
 } // namespace signorini
