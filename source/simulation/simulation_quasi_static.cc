@@ -48,8 +48,7 @@ std::optional<Complaint> Simulation<dim>::solve_load_step(double time)
     fault = correct_contact(time);
   if (!fault)
   {
-    forces.elasticity->update(state);
-    results.energy.plastic_work += forces.elasticity->commit();
+    accept_yielding();
     for (const auto &friction : forces.frictions)
       results.energy.rubbed_off += friction->commit();
     return {};
@@ -60,6 +59,13 @@ std::optional<Complaint> Simulation<dim>::solve_load_step(double time)
   if (results.penalty_factor != penalty_factor_before)
     set_penalty_factor(penalty_factor_before);
   return fault;
+}
+
+template <int dim>
+void Simulation<dim>::accept_yielding()
+{
+  forces.elasticity->update(state);
+  results.energy.plastic_work += forces.elasticity->commit();
 }
 
 template <int dim>
@@ -135,6 +141,7 @@ void Simulation<dim>::run_quasi_static()
       save_when_due();
       check_interruption([this]() { save(); });
       const double n_load_steps_before = n_load_steps_done();
+      begin_load_step();
       const double time = end - state.time < step_length * (1. + 1e-9) ? end : state.time + step_length;
       if (const std::optional<Complaint> fault = solve_load_step(time))
       {
