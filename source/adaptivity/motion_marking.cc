@@ -74,8 +74,9 @@ find_cells_near_contact(const Scene<dim> &scene, const ContactParameters &contac
 
 template <int dim>
 bool mark_cells_in_motion(const std::vector<bool> &is_near_contact, OtherCells others,
-                          const ErrorEstimate &estimate, const AdaptivityParameters &parameters,
-                          const FileLevels<dim> &file_levels, Discretization<dim> &discretization)
+                          const std::vector<double> &plastic_strains, const ErrorEstimate &estimate,
+                          const AdaptivityParameters &parameters, const FileLevels<dim> &file_levels,
+                          Discretization<dim> &discretization)
 {
   const ErrorClasses errors(estimate, parameters, discretization.communicator());
   const bool may_refine = discretization.n_dofs() < parameters.max_n_dofs;
@@ -90,7 +91,7 @@ bool mark_cells_in_motion(const std::vector<bool> &is_near_contact, OtherCells o
       if (may_refine && extra_levels[own_cell] < parameters.max_levels)
         cell->set_refine_flag();
     }
-    else if (extra_levels[own_cell] > 0 &&
+    else if (extra_levels[own_cell] > 0 && plastic_strains[own_cell] == 0. &&
              (is_by_error ? errors.is_small(squared) : others == OtherCells::coarser))
       cell->set_coarsen_flag();
     ++own_cell;
@@ -110,8 +111,10 @@ template std::vector<bool> find_cells_near_contact(const Scene<3> &, const Conta
                                                    const Discretization<3> &, const SurfaceMap<3> &,
                                                    const std::vector<BoundaryFace<3>> &,
                                                    const FileLevels<3> &, const State &, double);
-template bool mark_cells_in_motion(const std::vector<bool> &, OtherCells, const ErrorEstimate &,
-                                   const AdaptivityParameters &, const FileLevels<2> &, Discretization<2> &);
-template bool mark_cells_in_motion(const std::vector<bool> &, OtherCells, const ErrorEstimate &,
-                                   const AdaptivityParameters &, const FileLevels<3> &, Discretization<3> &);
+template bool mark_cells_in_motion(const std::vector<bool> &, OtherCells, const std::vector<double> &,
+                                   const ErrorEstimate &, const AdaptivityParameters &, const FileLevels<2> &,
+                                   Discretization<2> &);
+template bool mark_cells_in_motion(const std::vector<bool> &, OtherCells, const std::vector<double> &,
+                                   const ErrorEstimate &, const AdaptivityParameters &, const FileLevels<3> &,
+                                   Discretization<3> &);
 } // namespace signorini

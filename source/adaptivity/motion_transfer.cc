@@ -260,7 +260,8 @@ void add_rigid_velocities(const Discretization<dim> &discretization,
 } // namespace
 
 template <int dim>
-VectorAndMoment adapt_in_motion(Scene<dim> &scene, Discretization<dim> &discretization, State &state)
+VectorAndMoment adapt_in_motion(Scene<dim> &scene, Discretization<dim> &discretization, State &state,
+                                PointValues &memory)
 {
   const std::vector<Freedom> freedoms = find_freedoms(scene);
   const unsigned int n_bodies = scene.n_bodies();
@@ -273,7 +274,7 @@ VectorAndMoment adapt_in_motion(Scene<dim> &scene, Discretization<dim> &discreti
   const auto velocities = fit_affine_fields(discretization, freedoms, state.velocity);
   add_affine_fields(discretization, displacements, -1., state.displacement);
   add_affine_fields(discretization, velocities, -1., state.velocity);
-  discretization.adapt({&state.displacement, &state.velocity});
+  discretization.adapt({&state.displacement, &state.velocity}, memory);
   add_affine_fields(discretization, displacements, 1., state.displacement);
   add_affine_fields(discretization, velocities, 1., state.velocity);
 
@@ -295,6 +296,6 @@ VectorAndMoment adapt_in_motion(Scene<dim> &scene, Discretization<dim> &discreti
   return changes;
 }
 
-template VectorAndMoment adapt_in_motion(Scene<2> &, Discretization<2> &, State &);
-template VectorAndMoment adapt_in_motion(Scene<3> &, Discretization<3> &, State &);
+template VectorAndMoment adapt_in_motion(Scene<2> &, Discretization<2> &, State &, PointValues &);
+template VectorAndMoment adapt_in_motion(Scene<3> &, Discretization<3> &, State &, PointValues &);
 } // namespace signorini

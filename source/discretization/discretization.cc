@@ -61,10 +61,10 @@ void Discretization<dim>::set_up()
 }
 
 template <int dim>
-void Discretization<dim>::adapt(const std::vector<Vector *> &values)
+void Discretization<dim>::adapt(const std::vector<Vector *> &values, PointValues &point_values)
 {
   hexahedra->mesh.prepare_coarsening_and_refinement();
-  change_mesh(values, [this]() { hexahedra->mesh.execute_coarsening_and_refinement(); });
+  change_mesh(values, point_values, [this]() { hexahedra->mesh.execute_coarsening_and_refinement(); });
 }
 
 template <int dim>
@@ -77,7 +77,7 @@ double Discretization<dim>::imbalance(const std::vector<unsigned int> &weights) 
 
 template <int dim>
 bool Discretization<dim>::balance(const std::vector<unsigned int> &weights,
-                                  const std::vector<Vector *> &values)
+                                  const std::vector<Vector *> &values, PointValues &point_values)
 {
   constexpr double tolerated_imbalance = 1.1;
   const unsigned int n_hexahedra = tetrahedra ? tetrahedra->first_cell : cells.n_cells;
@@ -90,8 +90,28 @@ bool Discretization<dim>::balance(const std::vector<unsigned int> &weights,
     weight_of_cell[cell->active_cell_index()] = weights[own_cell++];
   const boost::signals2::scoped_connection connection = mesh.signals.weight.connect(
       [&](const auto &cell, const auto &) { return weight_of_cell[cell->active_cell_index()]; });
-  change_mesh(values, [&mesh]() { mesh.repartition(); });
+  change_mesh(values, point_values, [&mesh]() { mesh.repartition(); });
   return true;
+}
+
+template <int dim>
+void Discretization<dim>::change_mesh(const std::vector<Vector *> &values, PointValues &point_values,
+                                      const std::function<void()> &change)
+{
+  if (point_values.n_components == 0)
+    return change_mesh(values, change);
+  // Tetrahedra stay as they are, behind the hexahedra.
+  std::vector<double> &numbers = point_values.values;
+  const auto end_of_hexahedra =
+      numbers.begin() +
+      static_cast<std::ptrdiff_t>(cells.first_point(tetrahedra ? tetrahedra->first_cell : cells.n_cells) *
+                                  point_values.n_components);
+  const std::vector<double> on_tetrahedra(end_of_hexahedra, numbers.end());
+  numbers.erase(end_of_hexahedra, numbers.end());
+  PointTransfer<dim> transfer(*hexahedra, point_values.n_components, numbers);
+  change_mesh(values, change);
+  numbers = transfer.interpolate();
+  numbers.insert(numbers.end(), on_tetrahedra.begin(), on_tetrahedra.end());
 }
 
 template <int dim>

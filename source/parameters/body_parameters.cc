@@ -46,7 +46,7 @@ void declare_material(Declarations &declarations, const DeclarationScope &scope,
       "Model", one_of(names_in(models())), "linear elastic", "",
       "Small strain and small rotation; compressible finite strain; or finite strain of which a part "
       "stays, once von Mises' stress has reached a yield stress. A body that rotates needs one of the "
-      "latter two. J2 plastic: not with 'Adaptivity' or 'Exact solution'.");
+      "latter two. J2 plastic: not with 'Exact solution'.");
   material.add_required("Young's modulus", positive_number(), "Pa", "Stiffness in uniaxial tension.");
   material.add_required("Poisson's ratio", number_between(-1., 0.5), "", "Transverse contraction.");
   material.add("Density", positive_number(), "", "kg/m³",

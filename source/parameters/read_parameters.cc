@@ -168,18 +168,25 @@ void check_implicit_contact(const ParameterText &text, const Parameters &paramet
          text.where("Contact", "Potential"));
 }
 
-/// What does not know bodies that yield: their points remember, and stay with the mesh they are on.
+/// What does not know bodies that yield.
 void check_plastic(const ParameterText &text, const Parameters &parameters)
 {
+  const bool is_quasi_static = std::holds_alternative<QuasiStaticParameters>(parameters.solver);
   for (const BodyParameters &body : parameters.bodies)
-    for (const std::string path : {"Adaptivity", "Exact solution"})
+  {
+    const auto reject = [&](const std::string &path, const std::string &what, const std::string &next_step)
+    {
       if (body.material.model == MaterialParameters::Model::plastic && text.find_subsection(path) != nullptr)
-        throw InputError(Complaint(fmt::format("'Model = J2 plastic' contradicts '{}': {}", path,
-                                               path == "Exact solution" ? "all of them are of elastic bodies"
-                                                                        : "they do not work together yet"))
+        throw InputError(Complaint(fmt::format("'Model = J2 plastic' contradicts '{}': {}", path, what))
                              .at(text.where("Body " + body.name + "/Material", "Model"))
                              .found(fmt::format("'{}' stands at {}", path, text.where(path)))
-                             .advise("remove the subsection, or set Model = neo-Hookean"));
+                             .advise(next_step + ", or set Model = neo-Hookean"));
+    };
+    reject("Exact solution", "all of them are of elastic bodies", "remove the subsection");
+    if (is_quasi_static && body.mesh.cell_type == MeshParameters::CellType::tetrahedra)
+      reject("Adaptivity", "meshes of tetrahedra are made anew, without what their points remember",
+             parameters.dimension == 2 ? "set Cell type = quadrilaterals" : "set Cell type = hexahedra");
+  }
 }
 
 void check_contact_error(const ParameterText &text, const Parameters &parameters)

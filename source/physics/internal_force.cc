@@ -227,19 +227,65 @@ double InternalForce<dim>::commit()
 }
 
 template <int dim>
+PointValues InternalForce<dim>::memory() const
+{
+  PointValues memory;
+  if (!has_plasticity())
+    return memory;
+  const CellTable<dim> &cells = discretization->cells;
+  memory.n_components = n_remembered;
+  memory.values.resize(n_remembered * cells.n_points(), 0.);
+  for_each_cell(
+      [&](auto &kernel, unsigned int cell, const CellGeometry &geometry, const double *u)
+      {
+        if constexpr (std::is_same_v<decltype(kernel), PlasticKernel &>)
+          for (unsigned int q = 0; q < geometry.n_points; ++q)
+          {
+            const auto of_point =
+                kernel.law_at(geometry, q).memory(displacement_gradient<dim>(geometry, q, u));
+            std::copy(of_point.begin(), of_point.end(),
+                      &memory.values[n_remembered * (cells.first_point(cell) + q)]);
+          }
+      });
+  return memory;
+}
+
+template <int dim>
+void InternalForce<dim>::remember(const PointValues &memory)
+{
+  if (!has_plasticity())
+    return;
+  const CellTable<dim> &cells = discretization->cells;
+  for_each_cell(
+      [&](auto &kernel, unsigned int cell, const CellGeometry &geometry, const double *u)
+      {
+        if constexpr (std::is_same_v<decltype(kernel), PlasticKernel &>)
+          for (unsigned int q = 0; q < geometry.n_points; ++q)
+          {
+            typename J2Plastic<dim>::Memory of_point;
+            std::copy_n(&memory.values[n_remembered * (cells.first_point(cell) + q)], n_remembered,
+                        of_point.begin());
+            plastic_states[first_plastic_states[cell] + q] =
+                J2Plastic<dim>::recall(displacement_gradient<dim>(geometry, q, u), of_point);
+          }
+      });
+}
+
+template <int dim>
 std::vector<double> InternalForce<dim>::plastic_strains() const
 {
   const CellTable<dim> &cells = discretization->cells;
   std::vector<double> means(cells.n_cells, 0.);
-  for_each_cell(
-      [&](auto &, unsigned int cell, const CellGeometry &geometry, const double *)
-      {
-        if (geometry.states == nullptr)
-          return;
-        for (unsigned int q = 0; q < geometry.n_points; ++q)
-          means[cell] += geometry.weights[q] * geometry.states[q].equivalent_strain;
-        means[cell] /= std::accumulate(geometry.weights, geometry.weights + geometry.n_points, 0.);
-      });
+  if (!has_plasticity())
+    return means;
+  for (unsigned int cell = 0; cell < cells.n_cells; ++cell)
+  {
+    const CellGeometry geometry = geometry_of(cells, cell);
+    const std::size_t first = first_plastic_states[cell], end = first_plastic_states[cell + 1];
+    for (std::size_t i = first; i < end; ++i)
+      means[cell] += geometry.weights[i - first] * plastic_states[i].equivalent_strain;
+    means[cell] /= std::accumulate(geometry.weights, geometry.weights + geometry.n_points, 0.);
+  }
   return means;
 }
 

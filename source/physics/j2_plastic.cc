@@ -164,6 +164,35 @@ PlasticStep J2Plastic<dim>::yield(const Gradient &H) const
           plastic_work(*this, here.increment)};
 }
 
+template <int dim>
+auto J2Plastic<dim>::memory(const Gradient &H) const -> Memory
+{
+  const Return here = return_to_yield_surface(*this, H);
+  const Eigen::Matrix3d e = here.share * here.axes * here.strain.asDiagonal() * here.axes.transpose();
+  return {e(0, 0), e(0, 1), e(0, 2), e(1, 1), e(1, 2), e(2, 2), state->equivalent_strain};
+}
+
+template <int dim>
+PlasticState J2Plastic<dim>::recall(const Gradient &gradient, const Memory &m)
+{
+  if (!(m[6] > 0.))
+    return {};
+  Eigen::Matrix3d logarithm; // of the squares of the elastic stretches
+  logarithm << m[0], m[1], m[2], m[1], m[3], m[4], m[2], m[4], m[5];
+  logarithm *= 2.;
+  logarithm.diagonal().array() += 2. / 3. * std::log1p(volume_strain_of<dim>(gradient));
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(logarithm);
+  const Eigen::Matrix3d H = in_space<dim>(gradient), inverse = (Eigen::Matrix3d::Identity() + H).inverse(),
+                        stretch = eigen.eigenvectors() *
+                                  eigen.eigenvalues()
+                                      .array()
+                                      .unaryExpr([](double x) { return std::expm1(x); })
+                                      .matrix()
+                                      .asDiagonal() *
+                                  eigen.eigenvectors().transpose();
+  return {inverse * (stretch - H - H.transpose() - H * H.transpose()) * inverse.transpose(), m[6]};
+}
+
 template struct J2Plastic<2>;
 template struct J2Plastic<3>;
 } // namespace signorini

@@ -27,6 +27,7 @@ void Simulation<dim>::adapt_to_load()
     if (correction && (is_last || is_within(estimate.discretization)))
     {
       check_adapted(correct_contact(state.time));
+      accept_yielding();
       estimate_error();
     }
     const bool is_penalty_in_the_way =
@@ -78,7 +79,7 @@ void Simulation<dim>::check_adapted(const std::optional<Complaint> &fault) const
                               fault->what))
             .at(fault->where)
             .expected(fault->allowed)
-            .advise(fault->next_step));
+            .advise(fault->next_step + "; or lower Adaptivity/Maximum dofs"));
 }
 
 template <int dim>
@@ -86,6 +87,7 @@ void Simulation<dim>::adapt_mesh()
 {
   const auto section = run_time.enter("refinement");
   auto slips = place_slips();
+  const std::vector<Vector *> carried{&state.displacement, &step_start.state.displacement};
   const std::vector<PlacedSimplexMesh> new_meshes =
       discretization->tetrahedra
           ? make_adapted_meshes(results.estimate, *parameters.adaptivity, parameters.bodies, *discretization)
@@ -96,15 +98,23 @@ void Simulation<dim>::adapt_mesh()
     if (surface_map)
       level_curved_contact(estimator->boundary_faces(), estimator->contact_pressures(),
                            results.penalty_factor, *surface_map, *discretization);
-    discretization->adapt({&state.displacement});
+    discretization->adapt(carried, step_start.memory);
   }
   if (discretization->tetrahedra)
-    discretization->replace_tetrahedra(new_meshes, {&state.displacement});
+    discretization->replace_tetrahedra(new_meshes, carried);
   build_on_mesh();
   // New supported nodes have values between those of the old ones, not their own.
-  supports->impose(state.time, state.displacement);
-  discretization->distribute(state.displacement);
-  balance_work({&state.displacement});
+  for (State *at : {&state, &step_start.state})
+  {
+    supports->impose(at->time, at->displacement);
+    discretization->distribute(at->displacement);
+  }
+  balance_work(carried, step_start.memory);
+  // What yielded in this step yields again in its repetition. Going on from its end, the bodies would only
+  // give way to the new mesh, and their stresses fall below those of yielding.
+  forces.elasticity->update(step_start.state);
+  forces.elasticity->remember(step_start.memory);
+  results.energy.plastic_work = step_start.plastic_work;
   remember_slips(std::move(slips));
   make_quasi_static_solver();
   fields->set_mesh(*discretization, map_of_pressures());
@@ -112,13 +122,23 @@ void Simulation<dim>::adapt_mesh()
 }
 
 template <int dim>
-void Simulation<dim>::balance_work(const std::vector<Vector *> &values)
+void Simulation<dim>::begin_load_step()
+{
+  if (!parameters.adaptivity)
+    return;
+  forces.elasticity->update(state);
+  step_start = {state, forces.elasticity->memory(), results.energy.plastic_work};
+}
+
+template <int dim>
+void Simulation<dim>::balance_work(const std::vector<Vector *> &values, PointValues &memory)
 {
   if (dealii::Utilities::MPI::n_mpi_processes(communicator) == 1)
     return;
   for (const auto &contact : forces.contacts)
     contact->renew(state);
-  if (discretization->balance(find_cell_work(*discretization, estimator->boundary_faces(), forces), values))
+  if (discretization->balance(find_cell_work(*discretization, estimator->boundary_faces(), forces), values,
+                              memory))
     build_on_mesh();
 }
 

@@ -52,6 +52,12 @@ void Simulation<dim>::archive_run(Archive &archive)
   archive &cycle;
   if (Archive::is_loading::value && cycle != none)
     refinement_cycle = cycle;
+  if (refinement_cycle)
+  {
+    if (Archive::is_loading::value)
+      step_start.state.displacement = discretization->make_vector();
+    archive &step_start.state.time &step_start.state.displacement &step_start.memory &step_start.plastic_work;
+  }
   archive &*fields &statistics_size &run_time;
 }
 

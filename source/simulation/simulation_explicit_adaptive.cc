@@ -29,8 +29,8 @@ bool Simulation<dim>::mark_in_motion(double duration, OtherCells others)
   if (surface_map)
     is_near_contact = find_cells_near_contact(scene, *parameters.contact, *discretization, *surface_map,
                                               estimator->boundary_faces(), *file_levels, state, duration);
-  return mark_cells_in_motion(is_near_contact, others, results.estimate, *parameters.adaptivity, *file_levels,
-                              *discretization);
+  return mark_cells_in_motion(is_near_contact, others, forces.elasticity->plastic_strains(), results.estimate,
+                              *parameters.adaptivity, *file_levels, *discretization);
 }
 
 template <int dim>
@@ -51,12 +51,13 @@ void Simulation<dim>::adapt_in_explicit_run(double time_step)
   explicit_solver->take_stock(state);
   explicit_solver->suspend(state);
   auto slips = place_slips();
+  PointValues memory = forces.elasticity->memory();
   VectorAndMoment momentum_change;
   // Cells that contact is about to reach take all their levels at once.
   unsigned int n_rounds = 0;
   do
   {
-    const VectorAndMoment change = adapt_in_motion(scene, *discretization, state);
+    const VectorAndMoment change = adapt_in_motion(scene, *discretization, state, memory);
     for (unsigned int d = 0; d < 3; ++d)
     {
       momentum_change.vector[d] += change.vector[d];
@@ -64,7 +65,9 @@ void Simulation<dim>::adapt_in_explicit_run(double time_step)
     }
     build_on_mesh();
   } while (++n_rounds < adaptivity.max_levels && mark_in_motion(duration, OtherCells::as_they_are));
-  balance_work({&state.displacement, &state.velocity});
+  balance_work({&state.displacement, &state.velocity}, memory);
+  forces.elasticity->update(state);
+  forces.elasticity->remember(memory);
   remember_slips(std::move(slips));
 
   const std::unique_ptr<ExplicitSolver<dim>> before = std::move(explicit_solver);

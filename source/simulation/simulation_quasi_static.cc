@@ -48,8 +48,7 @@ std::optional<Complaint> Simulation<dim>::solve_load_step(double time)
     fault = correct_contact(time);
   if (!fault)
   {
-    forces.elasticity->update(state);
-    results.energy.plastic_work += forces.elasticity->commit();
+    accept_yielding();
     for (const auto &friction : forces.frictions)
       results.energy.rubbed_off += friction->commit();
     return {};
@@ -60,6 +59,13 @@ std::optional<Complaint> Simulation<dim>::solve_load_step(double time)
   if (results.penalty_factor != penalty_factor_before)
     set_penalty_factor(penalty_factor_before);
   return fault;
+}
+
+template <int dim>
+void Simulation<dim>::accept_yielding()
+{
+  forces.elasticity->update(state);
+  results.energy.plastic_work += forces.elasticity->commit();
 }
 
 template <int dim>
@@ -150,6 +156,7 @@ void Simulation<dim>::run_quasi_static()
               write_fields();
           });
       const double n_load_steps_before = n_load_steps_done();
+      begin_load_step();
       // However short steps became on the way, the load steps of the file end where it says.
       const double end_of_load_step = std::min(end, (n_load_steps_before + 1.) * largest_step);
       const double time = end_of_load_step - state.time < step_length * (1. + 1e-9)

@@ -127,6 +127,12 @@ class ResumeTest(StoppedRunTest):
         self.check_resumed(SCENES / "adaptive_ball.prm", "--set", "Quasi-static/Load steps=2",
                            "--set", "Adaptivity/Maximum cycles=2")
 
+    def test_adaptive_plasticity(self):
+        self.check_resumed(SCENES / "bent_beam.prm", "--set", "Quasi-static/Load steps=16")
+
+    def test_adaptive_plasticity_in_motion(self):
+        self.check_resumed(SCENES / "adaptive_taylor.prm", "--set", "Explicit/End time=1e-5", n_ranks=2)
+
     def test_two_ranks(self):
         self.check_resumed(VALIDATION / "incline.prm", "--set", "Explicit/End time=0.3", n_ranks=2)
 

@@ -117,6 +117,26 @@ inline SupportParameters make_support(const std::string &boundary,
   return support;
 }
 
+/// Flags cells at random, though the same on any number of ranks; every mesh that comes of it has other
+/// hanging nodes. Families become coarser together.
+template <int dim>
+void flag_at_random(Discretization<dim> &discretization, unsigned int seed, double coarsen_share)
+{
+  const auto chance_at = [seed](const dealii::Point<dim> &x)
+  {
+    const double mixed = std::sin(12.9898 * x[0] + 78.233 * x[1] + 37.719 * x[dim - 1] + seed) * 43758.5453;
+    return mixed - std::floor(mixed);
+  };
+  for (const auto &cell : discretization.hexahedra->mesh.active_cell_iterators())
+    if (cell->is_locally_owned())
+    {
+      if (cell->level() > 0 && chance_at(cell->parent()->center()) < coarsen_share)
+        cell->set_coarsen_flag();
+      else if (chance_at(cell->center()) > .7 && cell->level() < 3)
+        cell->set_refine_flag();
+    }
+}
+
 /// What a simulation builds from its parameters, piece by piece.
 template <int dim>
 struct BuiltScene
@@ -228,6 +248,7 @@ struct BuiltScene
   SupportedDofs<dim> supports;
   SurfaceMap<dim> map;
   SceneForces<dim> forces;
+  PointValues memory; ///< of points, carried along when the mesh changes
   State state;
   RunTime run_time;
 };

@@ -28,10 +28,13 @@ enum class OtherCells
 };
 
 /// Flags cells of a moving scene (collective): those near contact for refinement; none above `max_levels`
-/// beyond the mesh of the file or below that mesh; errors count as ErrorClasses says. Returns whether any
-/// flag is left after those have been cleared that the neighbours forbid.
+/// beyond the mesh of the file or below that mesh; errors count as ErrorClasses says. Cells that have
+/// yielded, of the mean equivalent plastic strain `plastic_strains` [own cell], become no coarser: the nodes
+/// that would be dropped hold the volume of what has flowed around them. Returns whether any flag is left
+/// after those have been cleared that the neighbours forbid.
 template <int dim>
 bool mark_cells_in_motion(const std::vector<bool> &is_near_contact, OtherCells others,
-                          const ErrorEstimate &estimate, const AdaptivityParameters &parameters,
-                          const FileLevels<dim> &file_levels, Discretization<dim> &discretization);
+                          const std::vector<double> &plastic_strains, const ErrorEstimate &estimate,
+                          const AdaptivityParameters &parameters, const FileLevels<dim> &file_levels,
+                          Discretization<dim> &discretization);
 } // namespace signorini

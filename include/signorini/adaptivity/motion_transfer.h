@@ -15,6 +15,7 @@ namespace signorini
 ///   mean of squares is evaluated at the new nodes themselves: where these lie on a curve and not between
 ///   the old ones, a body that has turned is not strained by it. Components that a support of the body
 ///   prescribes are interpolated as they are.
+/// - What points remember is interpolated as Discretization::adapt() does.
 /// - The densities in `scene` are scaled so that every body keeps its mass.
 /// - Every body gets the rigid velocity that gives it back its momentum and its angular momentum, as far as
 ///   no support of the body acts on them.
@@ -22,5 +23,6 @@ namespace signorini
 /// Returns by how much the momentum, and its moment about the origin, of bodies with supports changed
 /// otherwise.
 template <int dim>
-VectorAndMoment adapt_in_motion(Scene<dim> &scene, Discretization<dim> &discretization, State &state);
+VectorAndMoment adapt_in_motion(Scene<dim> &scene, Discretization<dim> &discretization, State &state,
+                                PointValues &memory);
 } // namespace signorini

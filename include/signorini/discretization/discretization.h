@@ -4,6 +4,7 @@
 #include "signorini/base/types.h"
 #include "signorini/discretization/cell_table.h"
 #include "signorini/discretization/hexahedral_part.h"
+#include "signorini/discretization/point_transfer.h"
 #include "signorini/discretization/tetrahedral_part.h"
 #include "signorini/parameters/parameters.h"
 
@@ -40,10 +41,10 @@ class Discretization
 public:
   Discretization(const Parameters &parameters, const MPI_Comm &communicator);
 
-  /// Refines and coarsens the hexahedra by their flags, numbers everything anew and carries `values` over by
-  /// interpolation (collective). Whatever was made from this object before is void. New cells stay on
-  /// the rank that had those they came from.
-  void adapt(const std::vector<Vector *> &values);
+  /// Refines and coarsens the hexahedra by their flags, numbers everything anew and carries `values` and
+  /// `point_values` over by interpolation (collective). Whatever was made from this object before is void.
+  /// New cells stay on the rank that had those they came from.
+  void adapt(const std::vector<Vector *> &values, PointValues &point_values);
 
   /// Puts other meshes in the place of those of the tetrahedra, the same ones on every rank, numbers
   /// everything anew and carries `values` over by interpolation (collective). Whatever was made from this
@@ -54,10 +55,11 @@ public:
   double imbalance(const std::vector<unsigned int> &weights) const;
 
   /// Shares the hexahedra out among the ranks anew, so that each has about the same sum of their `weights`,
-  /// positive ones of its own cells, and carries `values` over as they are (collective). Tetrahedra, which
-  /// stay on their ranks, count for nothing. Does nothing where no rank has more than 1.1 of the mean.
-  /// Returns whether it did; then whatever was made from this object before is void.
-  bool balance(const std::vector<unsigned int> &weights, const std::vector<Vector *> &values);
+  /// positive ones of its own cells, and carries `values` and `point_values` over as they are (collective).
+  /// Tetrahedra, which stay on their ranks, count for nothing. Does nothing where no rank has more than 1.1
+  /// of the mean. Returns whether it did; then whatever was made from this object before is void.
+  bool balance(const std::vector<unsigned int> &weights, const std::vector<Vector *> &values,
+               PointValues &point_values);
 
   /// Ids of this rank's hexahedra, from which restore() makes the same mesh again.
   std::vector<dealii::CellId::binary_type> hexahedron_ids() const;
@@ -125,7 +127,9 @@ private:
   static std::vector<Vector> extract(const MeshPart<dim> &part, const std::vector<Vector *> &values);
   /// Forgets all that depends on the meshes, numbers them and makes the vectors new.
   void set_up_anew(const std::vector<Vector *> &values);
-  /// Numbers everything anew after `change` of the mesh and carries `values` over.
+  /// Numbers everything anew after `change` of the hexahedra's mesh and carries the values over.
+  void change_mesh(const std::vector<Vector *> &values, PointValues &point_values,
+                   const std::function<void()> &change);
   void change_mesh(const std::vector<Vector *> &values, const std::function<void()> &change);
   void number_dofs();
   void set_numbering();

@@ -44,6 +44,11 @@ public:
   /// is the state in the middle of the step.
   double commit();
 
+  /// What all points remember, to be carried to another mesh, and taken there: J2Plastic::memory() at the
+  /// last update(), zero in bodies that do not yield; nothing where none does.
+  PointValues memory() const;
+  void remember(const PointValues &memory);
+
   /// Whether any body may yield.
   bool has_plasticity() const;
 
@@ -72,6 +77,7 @@ public:
 
 private:
   using PlasticKernel = CellKernel<dim, J2Plastic<dim>>;
+  static constexpr unsigned int n_remembered = std::tuple_size_v<typename J2Plastic<dim>::Memory>;
   using Kernel =
       std::variant<CellKernel<dim, LinearElastic<dim>>, CellKernel<dim, NeoHookean<dim>>, PlasticKernel>;
 

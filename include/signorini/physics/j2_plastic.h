@@ -3,6 +3,8 @@
 
 #include "signorini/physics/material.h"
 
+#include <array>
+
 namespace signorini
 {
 /// What a point that has yielded remembers, always in three dimensions.
@@ -52,5 +54,13 @@ struct J2Plastic
 
   /// What the point would remember after a step to H.
   PlasticStep yield(const Gradient &H) const;
+
+  /// What the point remembers at H, as numbers that may be interpolated: its elastic strain e by the rows of
+  /// its upper triangle, whose trace is 0, and α. Stresses depend on e alone, which yielding keeps small.
+  using Memory = std::array<double, 7>;
+  Memory memory(const Gradient &H) const;
+
+  /// The state that has this memory at H: C_p⁻¹ = J^⅔ F⁻¹ exp(2e) F⁻ᵀ. Untouched unless α > 0.
+  static PlasticState recall(const Gradient &H, const Memory &memory);
 };
 } // namespace signorini

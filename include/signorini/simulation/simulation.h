@@ -72,6 +72,8 @@ private:
   /// Finds the equilibrium and accepts what it slid and yielded on the way; returns why there is none, with
   /// the state as it was.
   std::optional<Complaint> solve_load_step(double time);
+  /// Lets points remember how they yielded up to the present equilibrium.
+  void accept_yielding();
   /// The parts of solve_load_step(); they return why they failed.
   std::optional<Complaint> find_equilibrium(double time);
   std::optional<Complaint> correct_contact(double time);
@@ -105,7 +107,7 @@ private:
   /// Whether the contact forces of every step are solved for.
   bool has_implicit_contact() const;
   /// Shares an adapted mesh out by the work of its cells, and builds what stands on it anew, where that pays.
-  void balance_work(const std::vector<Vector *> &values);
+  void balance_work(const std::vector<Vector *> &values, PointValues &memory);
   bool is_adaptation_due(double time_step) const;
   /// Flags cells for what is to come within `duration`; whether there are any.
   bool mark_in_motion(double duration, OtherCells others);
@@ -118,6 +120,9 @@ private:
   /// Throws NumericalError for a fault found on a refined mesh.
   void check_adapted(const std::optional<Complaint> &fault) const;
   void adapt_mesh();
+  /// Keeps the present state as the one that the load step starts from; those of adapted meshes start there
+  /// again.
+  void begin_load_step();
   void make_quasi_static_solver();
   void say_equilibrium(double end_time);
   /// How far any node or obstacle may move in a step from the present state, both together [m].
@@ -178,6 +183,14 @@ private:
   void plan_adaptivity();
   double memory_mb() const;
 
+  /// What a load step starts from, on the present mesh.
+  struct StepStart
+  {
+    State state;
+    PointValues memory;
+    double plastic_work = 0.; ///< since the start of the run [J; J/m in 2-D]
+  };
+
   Parameters parameters;
   const ParameterText *text;
   MPI_Comm communicator;
@@ -205,6 +218,7 @@ private:
   double next_adaptation_time = 0.;          ///< and before this time, to which contact has been foreseen [s]
   unsigned int next_row = 1, next_field = 1; ///< of those that 'Output' asks for
   std::optional<unsigned int> refinement_cycle; ///< of a load step that is being adapted to
+  StepStart step_start;                         ///< quasi-static runs with adaptivity: of the last step
   double step_length = 0.;                      ///< quasi-static and implicit runs: that is tried next [s]
   bool has_warned_of_depth = false, has_warned_of_unseen = false;
   double time_of_fields = 0.; ///< at which the last ones were written [s]

@@ -42,7 +42,7 @@ struct Pillar
         cell->set_refine_flag();
       else if (cell->is_locally_owned() && !is_foot_refined && cell->level() > 0)
         cell->set_coarsen_flag();
-    built.discretization.adapt({&built.state.displacement, &built.state.velocity});
+    built.discretization.adapt({&built.state.displacement, &built.state.velocity}, built.memory);
   }
 
   /// Position, displacement and velocity of all nodes of all ranks, sorted.
@@ -94,13 +94,14 @@ TYPED_TEST(MotionOnRanks, WorkOfContactIsSharedOut)
   EXPECT_EQ(discretization.imbalance(work) > 1.15, is_parallel);
 
   const auto before = pillar.gather_motion();
-  const bool has_moved =
-      discretization.balance(work, {&pillar.built.state.displacement, &pillar.built.state.velocity});
+  const bool has_moved = discretization.balance(
+      work, {&pillar.built.state.displacement, &pillar.built.state.velocity}, pillar.built.memory);
   EXPECT_EQ(has_moved, is_parallel);
   EXPECT_EQ(pillar.gather_motion(), before);
   const std::vector<unsigned int> new_work = pillar.find_work();
   EXPECT_LE(discretization.imbalance(new_work), 1.15);
-  EXPECT_FALSE(discretization.balance(new_work, {&pillar.built.state.displacement})) << "it is balanced";
+  EXPECT_FALSE(discretization.balance(new_work, {&pillar.built.state.displacement}, pillar.built.memory))
+      << "it is balanced";
 
   pillar.adapt(false);
   EXPECT_EQ(discretization.n_cells(), n_cells) << "children of one cell were parted";
@@ -118,9 +119,10 @@ TYPED_TEST(MotionOnRanks, TetrahedraAreNotShared)
   std::fill(work.begin() + discretization.tetrahedra->first_cell, work.end(), is_first ? 1 : 100000);
   const bool is_parallel = dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD) > 1;
   EXPECT_EQ(discretization.imbalance(work) > 1.5, is_parallel);
-  EXPECT_FALSE(discretization.balance(work, {&built.state.displacement})) << "the hexahedra are balanced";
+  EXPECT_FALSE(discretization.balance(work, {&built.state.displacement}, built.memory))
+      << "the hexahedra are balanced";
   std::fill(work.begin(), work.begin() + discretization.tetrahedra->first_cell, is_first ? 1000 : 3000);
-  EXPECT_EQ(discretization.balance(work, {&built.state.displacement}), is_parallel);
+  EXPECT_EQ(discretization.balance(work, {&built.state.displacement}, built.memory), is_parallel);
 }
 
 template <typename T>

@@ -82,9 +82,11 @@ struct Approach
       const std::vector<bool> is_near = find_cells_near_contact(
           built.scene, ContactParameters(), built.discretization, map,
           collect_boundary_faces(built.discretization, &map), levels, built.state, 1.);
-      if (!mark_cells_in_motion(is_near, others, ErrorEstimate(), adaptivity, levels, built.discretization))
+      const std::vector<double> plastic_strains(built.discretization.cells.n_cells, plastic_strain);
+      if (!mark_cells_in_motion(is_near, others, plastic_strains, ErrorEstimate(), adaptivity, levels,
+                                built.discretization))
         break;
-      adapt_in_motion(built.scene, built.discretization, built.state);
+      adapt_in_motion(built.scene, built.discretization, built.state, built.memory);
     }
     return n;
   }
@@ -105,6 +107,7 @@ struct Approach
   BuiltScene<dim> built;
   FileLevels<dim> levels;
   AdaptivityParameters adaptivity;
+  double plastic_strain = 0.;
 };
 
 TYPED_TEST(MotionMarking, ContactThatIsComingIsRefinedAndContactThatIsGoneIsNot)
@@ -117,6 +120,9 @@ TYPED_TEST(MotionMarking, ContactThatIsComingIsRefinedAndContactThatIsGoneIsNot)
   EXPECT_EQ(approach.extra_levels(), (std::array<unsigned int, 2>{2, 2}));
   EXPECT_LT(approach.built.discretization.n_cells(), (1u << dim) * n_of_file);
   EXPECT_EQ(approach.adapt(0., OtherCells::as_they_are), 0u);
+  approach.plastic_strain = 1e-3;
+  EXPECT_EQ(approach.adapt(0., OtherCells::coarser), 0u) << "what has yielded stays";
+  approach.plastic_strain = 0.;
   EXPECT_EQ(approach.adapt(0., OtherCells::coarser), 2u);
   EXPECT_EQ(approach.built.discretization.n_cells(), n_of_file) << "the mesh of the file, graded as it was";
 }

@@ -12,26 +12,6 @@ namespace
 {
 using Vector3 = Eigen::Vector3d;
 
-/// Flags cells at random, though the same on any number of ranks; every mesh that comes of it has other
-/// hanging nodes. Families become coarser together.
-template <int dim>
-void flag_at_random(Discretization<dim> &discretization, unsigned int seed, double coarsen_share)
-{
-  const auto chance_at = [seed](const dealii::Point<dim> &x)
-  {
-    const double mixed = std::sin(12.9898 * x[0] + 78.233 * x[1] + 37.719 * x[dim - 1] + seed) * 43758.5453;
-    return mixed - std::floor(mixed);
-  };
-  for (const auto &cell : discretization.hexahedra->mesh.active_cell_iterators())
-    if (cell->is_locally_owned())
-    {
-      if (cell->level() > 0 && chance_at(cell->parent()->center()) < coarsen_share)
-        cell->set_coarsen_flag();
-      else if (chance_at(cell->center()) > .7 && cell->level() < 3)
-        cell->set_refine_flag();
-    }
-}
-
 struct Momenta
 {
   double mass = 0.;
@@ -78,7 +58,7 @@ void expect_displacement_is_kept(BuiltScene<dim> &built, const Field &field)
   for (unsigned int round = 0; round < 3; ++round)
   {
     flag_at_random(built.discretization, round, round == 0 ? 0. : .6);
-    adapt_in_motion(built.scene, built.discretization, built.state);
+    adapt_in_motion(built.scene, built.discretization, built.state, built.memory);
     Vector difference = built.interpolate(field);
     difference -= built.state.displacement;
     EXPECT_LT(difference.linfty_norm(), 1e-13);
@@ -109,7 +89,8 @@ TYPED_TEST(MotionTransfer, EveryBodyKeepsItsMassAndMomenta)
     const std::array<Momenta, 2> before{momenta_of(built, 0), momenta_of(built, 1)};
     const auto n_cells = built.discretization.n_cells();
     flag_at_random(built.discretization, round, round == 0 ? 0. : .6);
-    const VectorAndMoment change = adapt_in_motion(built.scene, built.discretization, built.state);
+    const VectorAndMoment change =
+        adapt_in_motion(built.scene, built.discretization, built.state, built.memory);
     EXPECT_NE(built.discretization.n_cells(), n_cells);
     EXPECT_GT(dealii::Utilities::MPI::max(built.discretization.hanging_dofs.size(), MPI_COMM_WORLD), 0u);
     for (unsigned int body = 0; body < 2; ++body)
@@ -178,7 +159,8 @@ TYPED_TEST(MotionTransfer, SupportsTakeOnlyTheirOwnComponents)
   }
   const Momenta before = momenta_of(built, 0);
   flag_at_random(built.discretization, 2, 0.);
-  const VectorAndMoment change = adapt_in_motion(built.scene, built.discretization, built.state);
+  const VectorAndMoment change =
+      adapt_in_motion(built.scene, built.discretization, built.state, built.memory);
   const Momenta after = momenta_of(built, 0);
   const double round_off = 1e-13 * after.angular_scale;
   for (unsigned int d = 0; d < 3; ++d)
@@ -216,7 +198,8 @@ TYPED_TEST(MotionTransfer, JumpsOfEnergyAreBooked)
     solver->step(.3 * solver->stable_step(), built.state);
   solver->take_stock(built.state);
   flag_at_random(built.discretization, 7, 0.);
-  const VectorAndMoment change = adapt_in_motion(built.scene, built.discretization, built.state);
+  const VectorAndMoment change =
+      adapt_in_motion(built.scene, built.discretization, built.state, built.memory);
   built.supports = SupportedDofs<dim>(built.scene, built.discretization, 1.);
   built.map = SurfaceMap<dim>(built.scene, built.discretization);
   built.forces = SceneForces<dim>();

@@ -39,11 +39,12 @@ protected:
       else if (cell->level() > 0 && std::sin(37. * cell->parent()->center()[0] + round) < 0.)
         cell->set_coarsen_flag();
     }
-    discretization.adapt({});
+    PointValues nothing;
+    discretization.adapt({}, nothing);
     std::vector<unsigned int> weights(discretization.cells.n_cells, 1);
     if (dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0)
       weights.assign(weights.size(), 4);
-    discretization.balance(weights, {});
+    discretization.balance(weights, {}, nothing);
   }
 };
 TYPED_TEST_SUITE(RestoredMeshOnRanks, AllCases);
@@ -92,15 +93,16 @@ TYPED_TEST(RestoredMeshOnRanks, MayHaveAFamilyOnTwoRanks)
   for (const auto &cell : adapted.hexahedra->own_cells())
     if (way_of(cell) == std::vector<unsigned int>{0, 0})
       cell->set_refine_flag();
-  adapted.adapt({});
+  PointValues nothing;
+  adapted.adapt({}, nothing);
   std::vector<unsigned int> weights;
   for (const auto &cell : adapted.hexahedra->own_cells())
     weights.push_back(way_of(cell) == std::vector<unsigned int>{0, n / 2 - 1} ? n * (n - 1) - n + 2 : 1);
-  adapted.balance(weights, {});
+  adapted.balance(weights, {}, nothing);
   for (const auto &cell : adapted.hexahedra->own_cells())
     if (cell->level() == 3)
       cell->set_coarsen_flag();
-  adapted.adapt({});
+  adapted.adapt({}, nothing);
   unsigned int n_own = 0;
   for (const auto &cell : adapted.hexahedra->own_cells())
     n_own += way_of(cell).at(0) == 0;
