@@ -358,7 +358,7 @@ std::optional<Complaint> Simulation<dim>::find_deep_penetration(const MeasuresOf
     const bool is_a_leap = depth > 2.;
     return Complaint(fmt::format("body '{}' sinks into what it touches by {:.3g} of an element at t = {:.6g}",
                                  scene.body_names[measures[i].deepest_body], depth, state.time))
-        .at(format_point<dim>(measures[i].deepest_position))
+        .at("at " + format_point<dim>(measures[i].deepest_position))
         .expected(
             fmt::format("at most {} of an element, {}Contact/Maximum penetration: deeper, it could pass "
                         "through",

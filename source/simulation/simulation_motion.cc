@@ -151,6 +151,27 @@ void Simulation<dim>::record_motion(const MotionSolver<dim> &solver, double time
 }
 
 template <int dim>
+typename Simulation<dim>::LedgerLimit Simulation<dim>::find_ledger_limit() const
+{
+  if (const auto *implicit = std::get_if<ImplicitParameters>(&parameters.solver))
+    return {implicit->ledger_tolerance, "lower Implicit/Time step"};
+  return {std::get<ExplicitParameters>(parameters.solver).ledger_tolerance,
+          "lower the step factors of 'Explicit' or Contact/Penalty factor"};
+}
+
+template <int dim>
+void Simulation<dim>::warn_of_open_ledger()
+{
+  constexpr double silent = 0.2;
+  if (!results.has_ledger || results.max_ledger_residual <= silent * find_ledger_limit().tolerance)
+    return;
+  warn(fmt::format(
+      "the energy ledger is open by up to {:.2g} of the largest energy: so much of it was gained or lost "
+      "unseen; {}, or refine, if that counts",
+      results.max_ledger_residual, find_ledger_limit().advice));
+}
+
+template <int dim>
 void Simulation<dim>::check_ledger() const
 {
   const EnergyLedger &energy = results.energy;
@@ -160,17 +181,14 @@ void Simulation<dim>::check_ledger() const
             fmt::format("the motion is no longer a number at t = {:.6g}: an element was turned inside out",
                         state.time))
             .advise("look at the last fields; refine, or shorten the steps"));
-  const auto *implicit = std::get_if<ImplicitParameters>(&parameters.solver);
-  const double tolerance = implicit ? implicit->ledger_tolerance
-                                    : std::get<ExplicitParameters>(parameters.solver).ledger_tolerance;
+  const LedgerLimit limit = find_ledger_limit();
+  const double tolerance = limit.tolerance;
   if (std::abs(energy.residual()) <= tolerance)
     return;
-  Complaint fault =
-      Complaint(fmt::format("the energy ledger does not close at t = {:.6g}", state.time))
-          .found(fmt::format("{:+.3g} of the largest energy", energy.residual()))
-          .expected(fmt::format("at most {}", tolerance))
-          .advise(implicit ? "lower Implicit/Time step, or refine"
-                           : "lower the step factors of 'Explicit' or Contact/Penalty factor, or refine");
+  Complaint fault = Complaint(fmt::format("the energy ledger does not close at t = {:.6g}", state.time))
+                        .found(fmt::format("{:+.3g} of the largest energy", energy.residual()))
+                        .expected(fmt::format("at most {}", tolerance))
+                        .advise(limit.advice + ", or refine");
   for (std::size_t row = results.history.size() - 1; row > 0; --row)
     if (scene.blame_jump(results.history[row - 1].time, results.history[row].time, fault))
       break;

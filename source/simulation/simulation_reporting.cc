@@ -62,9 +62,12 @@ void Simulation<dim>::print_plan()
     progress.say(
         fmt::format("Quasi-static: {} load steps to {}", quasi_static->load_steps, quasi_static->end_time));
   else if (const auto *implicit = std::get_if<ImplicitParameters>(&parameters.solver))
+  {
+    const double n_steps = std::ceil(implicit->end_time / implicit->time_step);
     progress.say(fmt::format("Implicit: time step {:.4g} s, {:.0f} steps to {} s at least",
-                             implicit->time_step, std::ceil(implicit->end_time / implicit->time_step),
-                             implicit->end_time));
+                             implicit->time_step, n_steps, implicit->end_time));
+    warn_of_many_steps(n_steps, "lengthen Implicit/Time step");
+  }
   else
   {
     const auto &explicit_parameters = std::get<ExplicitParameters>(parameters.solver);
@@ -77,10 +80,7 @@ void Simulation<dim>::print_plan()
     progress.say(fmt::format(n_steps > 1e7 ? "Explicit: first time step {:.4g} s, about {:.1e} steps to {} s"
                                            : "Explicit: first time step {:.4g} s, about {:.0f} steps to {} s",
                              step, n_steps, explicit_parameters.end_time));
-    if (n_steps > 1e7)
-      warn(fmt::format("{:.1e} steps will hardly come to an end; shorten Explicit/End time, "
-                       "coarsen the smallest cells, or run Quasi-static",
-                       n_steps));
+    warn_of_many_steps(n_steps, "shorten Explicit/End time, coarsen the smallest cells, or run Quasi-static");
   }
   plan_adaptivity();
   for (const BodyParameters &body : parameters.bodies)
@@ -220,6 +220,13 @@ void Simulation<dim>::warn(const std::string &warning)
 }
 
 template <int dim>
+void Simulation<dim>::warn_of_many_steps(double n_steps, const std::string &advice)
+{
+  if (n_steps > 1e7)
+    warn(fmt::format("{:.1e} steps will hardly come to an end; {}", n_steps, advice));
+}
+
+template <int dim>
 void Simulation<dim>::gather_results()
 {
   results.memory_peak_mb = memory_mb();
@@ -242,6 +249,7 @@ void Simulation<dim>::gather_results()
   warn_of_collisions();
   warn_of_turns();
   warn_of_lone_points();
+  warn_of_open_ledger();
   constexpr double shallow = 0.1;
   if (results.max_penetration_over_thickness > shallow)
     warn(fmt::format("the largest penetration of the run, {:.3g} h, exceeds {} h: raise Contact/Penalty "

@@ -86,6 +86,13 @@ private:
   /// Rows and fields are written by the first step that reaches their time: outputs do not shape the steps.
   void record_when_due(MotionSolver<dim> &solver, double time_step, double end_time);
   void record_motion(const MotionSolver<dim> &solver, double time_step, double end_time);
+  /// How far the energy ledger may be open in a run in motion, and what closes it.
+  struct LedgerLimit
+  {
+    double tolerance; ///< of the largest energy
+    std::string advice;
+  };
+  LedgerLimit find_ledger_limit() const;
   /// Throws NumericalError for an energy that is no number, and for a ledger that does not close.
   void check_ledger() const;
   /// The first of `n` equal spans to the end time (of one, if none) whose end is still to come.
@@ -173,7 +180,9 @@ private:
   void gather_extremes();
   void print_results();
   /// Of a body that has turned though its law is not made for that.
+  void warn_of_many_steps(double n_steps, const std::string &advice);
   void warn_of_turns();
+  void warn_of_open_ledger();
   /// Where pressure stands on points that are fewer than those of a face.
   void warn_of_lone_points();
   /// Of the first in which two passed through each other.
