@@ -108,7 +108,8 @@ void Simulation<dim>::warn_of_lone_points()
     warn(fmt::format(
         "the largest contact pressure, {:.3g} Pa, is that of single points; the mean of no face "
         "exceeds {:.3g} Pa: contact is narrower than a face, or lies at an edge, or the facets of curved "
-        "faces do not fit each other. Forces are right, pressures and contact area are not: refine there",
+        "faces do not fit each other. Pressures and contact area are not resolved, less so than forces: "
+        "refine there",
         results.contact.max_pressure, largest_mean));
 }
 
