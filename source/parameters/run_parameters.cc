@@ -47,8 +47,8 @@ const std::vector<RunEntry<QuasiStaticParameters>> &quasi_static_entries()
   static const std::vector<RunEntry<Run>> entries{
       {"End time", positive_number(), "1", "s", "Time t of the last load step; it only enters the formulas.",
        &Run::end_time},
-      {"Load steps", integer_from(1, 1000000), "1", "", "Equal steps from time 0 to the end time.",
-       &Run::load_steps},
+      {"Load steps", integer_from(1, 1000000), "1", "",
+       "Equal steps from time 0 to the end time, halved on the way where that is needed.", &Run::load_steps},
       {"Tolerance", number_above_up_to(0., largest_newton_tolerance), "1e-9", "",
        "Largest residual force of any body, relative to the root of the sum of squares of that body's own "
        "forces; above 1e-2 Newton's method would stop before it has found which points touch.",

@@ -130,6 +130,22 @@ void Simulation<dim>::halve_load_step(double time, double smallest_step, const C
 }
 
 template <int dim>
+std::optional<Complaint> Simulation<dim>::step_towards(double end_of_load_step, double end)
+{
+  constexpr double round_off = 1e-9;
+  const double way = end_of_load_step - state.time;
+  if (way > step_length * (1. + round_off))
+    return solve_load_step(state.time + step_length);
+  const std::optional<Complaint> fault = solve_load_step(end_of_load_step);
+  const double beyond = std::min(end, state.time + step_length);
+  if (!fault || beyond - state.time <= way * (1. + round_off) || solve_load_step(beyond))
+    return fault;
+  warn(fmt::format("no equilibrium was found at the end of the load step at {:.6g}, but at {:.6g}: {}",
+                   end_of_load_step, beyond, fault->what));
+  return {};
+}
+
+template <int dim>
 void Simulation<dim>::run_quasi_static()
 {
   const auto &solver_parameters = std::get<QuasiStaticParameters>(parameters.solver);
@@ -159,12 +175,10 @@ void Simulation<dim>::run_quasi_static()
       begin_load_step();
       // However short steps became on the way, the load steps of the file end where it says.
       const double end_of_load_step = std::min(end, (n_load_steps_before + 1.) * largest_step);
-      const double time = end_of_load_step - state.time < step_length * (1. + 1e-9)
-                              ? end_of_load_step
-                              : state.time + step_length;
-      if (const std::optional<Complaint> fault = solve_load_step(time))
+      if (const std::optional<Complaint> fault = step_towards(end_of_load_step, end))
       {
-        halve_load_step(time, smallest_step, *fault);
+        step_length = std::min(step_length, end_of_load_step - state.time);
+        halve_load_step(state.time + step_length, smallest_step, *fault);
         continue;
       }
       ++results.n_steps;

@@ -72,6 +72,9 @@ private:
   /// Finds the equilibrium and accepts what it slid and yielded on the way; returns why there is none, with
   /// the state as it was.
   std::optional<Complaint> solve_load_step(double time);
+  /// Goes on by the present length of steps, no farther than the load step goes; where just its end has no
+  /// equilibrium, past it, with a warning. Returns why there is none.
+  std::optional<Complaint> step_towards(double end_of_load_step, double end_time);
   /// Lets points remember how they yielded up to the present equilibrium.
   void accept_yielding();
   /// The parts of solve_load_step(); they return why they failed.
