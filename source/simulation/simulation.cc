@@ -206,17 +206,18 @@ const SurfaceMap<dim> *Simulation<dim>::map_of_pressures() const
 }
 
 template <int dim>
-unsigned int Simulation<dim>::next_output(unsigned int n, double end) const
+unsigned int Simulation<dim>::next_output(double time, unsigned int n, double end)
 {
   constexpr double round_off = 1e-9; // steps add up to the time
-  return static_cast<unsigned int>(std::floor(state.time / end * std::max(1u, n) * (1. + round_off))) + 1;
+  return static_cast<unsigned int>(std::floor(time / end * std::max(1u, n) * (1. + round_off))) + 1;
 }
 
 template <int dim>
 bool Simulation<dim>::is_due(unsigned int &next, unsigned int n, double end) const
 {
-  const bool has_come = next_output(n, end) > next || state.time >= end;
-  next = next_output(n, end);
+  const unsigned int now = next_output(state.time, n, end);
+  const bool has_come = now > next || state.time >= end;
+  next = now;
   return has_come;
 }
 

@@ -45,7 +45,7 @@ void Simulation<dim>::archive_run(Archive &archive)
     archive &*explicit_solver;
   if (implicit_solver)
     archive &*implicit_solver;
-  archive &largest_energy &step_length &next_adaptation_step &next_adaptation_time;
+  archive &largest_energy &step_length &longest_step &next_adaptation_step &next_adaptation_time;
   archive &has_warned_of_depth &has_warned_of_unseen &time_of_fields;
   constexpr int none = -1;
   int cycle = refinement_cycle ? static_cast<int>(*refinement_cycle) : none;
@@ -157,8 +157,8 @@ void Simulation<dim>::resume()
   forces.elasticity->update(state);
   for (const auto &load : forces.loads)
     load->update(state);
-  next_row = next_output(parameters.output.n_statistics, end);
-  next_field = next_output(parameters.output.n_fields, end);
+  next_row = next_output(state.time, parameters.output.n_statistics, end);
+  next_field = next_output(time_of_fields, parameters.output.n_fields, end);
   run_time_of_checkpoint = run_time.total();
   time_of_checkpoint = state.time;
   for (const std::string &fault : found.faults)

@@ -162,8 +162,9 @@ typename Simulation<dim>::LedgerLimit Simulation<dim>::find_ledger_limit() const
 template <int dim>
 void Simulation<dim>::warn_of_open_ledger()
 {
-  constexpr double silent = 0.2;
-  if (!results.has_ledger || results.max_ledger_residual <= silent * find_ledger_limit().tolerance)
+  constexpr double silent = 0.2, much = 0.01;
+  if (!results.has_ledger ||
+      results.max_ledger_residual <= std::min(much, silent * find_ledger_limit().tolerance))
     return;
   warn(fmt::format(
       "the energy ledger is open by up to {:.2g} of the largest energy: so much of it was gained or lost "

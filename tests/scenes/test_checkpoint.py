@@ -259,7 +259,7 @@ class OtherMeshTest(StoppedRunTest):
         self.mesh = pathlib.Path(self.enterContext(tempfile.TemporaryDirectory())) / "wedge.msh"
         shutil.copy(self.STRESS / "meshes/wedge.msh", self.mesh)
         self.run_command = [self.STRESS / "points.prm", "--set", "Explicit/End time=0.2",
-                            "--set", f"Body upper/Mesh/File={self.mesh}"]
+                            "--set", "Contact/Allow initial overlap=true", "--set", f"Body upper/Mesh/File={self.mesh}"]
         self.stop(signal.SIGINT, 20, 1, *self.run_command, *SAVED)
 
     def check_refused(self, found):
@@ -283,7 +283,7 @@ class OtherMeshTest(StoppedRunTest):
         self.check_refused("1e-06 m")
 
     def test_another_mesh(self):
-        shutil.copy(self.STRESS / "meshes/spike.msh", self.mesh)
+        shutil.copy(self.STRESS / "meshes/cracked.msh", self.mesh)
         self.check_refused("degrees of freedom")
 
 

@@ -98,8 +98,8 @@ private:
   LedgerLimit find_ledger_limit() const;
   /// Throws NumericalError for an energy that is no number, and for a ledger that does not close.
   void check_ledger() const;
-  /// The first of `n` equal spans to the end time (of one, if none) whose end is still to come.
-  unsigned int next_output(unsigned int n, double end_time) const;
+  /// The first of `n` equal spans to the end time (of one, if none) whose end is later than `time`.
+  static unsigned int next_output(double time, unsigned int n, double end_time);
   /// Whether the end of the span `next` of these has come; sets it to the one that is next.
   bool is_due(unsigned int &next, unsigned int n, double end_time) const;
   /// Writes or reads all that the rest of the run depends on. Throws FileError.
@@ -232,6 +232,7 @@ private:
   std::optional<unsigned int> refinement_cycle; ///< of a load step that is being adapted to
   StepStart step_start;                         ///< quasi-static runs with adaptivity: of the last step
   double step_length = 0.;                      ///< quasi-static and implicit runs: that is tried next [s]
+  double longest_step = 0.; ///< implicit runs: that has not opened the ledger too far yet [s]
   bool has_warned_of_depth = false, has_warned_of_unseen = false;
   double time_of_fields = 0.; ///< at which the last ones were written [s]
   std::unique_ptr<Fields<dim>> fields;
