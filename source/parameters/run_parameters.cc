@@ -86,7 +86,7 @@ const std::vector<RunEntry<ImplicitParameters>> &implicit_entries()
       {"Step tolerance", number_from(0.), "0", "",
        "Largest part of the largest speed by which the change of velocities in a step may differ from that "
        "in the "
-       "one before; longer steps are halved. 0: all steps are as long as 'Time step'.",
+       "one before; longer steps are halved. 0: steps are not shortened for this.",
        &Run::step_tolerance},
       {"Tolerance", number_above_up_to(0., largest_newton_tolerance), "1e-9", "",
        "Largest residual force of any body, relative to the root of the sum of squares of that body's own "

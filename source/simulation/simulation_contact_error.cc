@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// What a Simulation does about the error that the penalty leaves in an equilibrium.
+// What a Simulation does about the error that the penalty leaves in an equilibrium, and about pressures that
+// the faces do not resolve.
 #include "signorini/simulation/simulation.h"
 
 #include "signorini/base/exceptions.h"

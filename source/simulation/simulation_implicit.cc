@@ -9,15 +9,6 @@
 
 namespace signorini
 {
-namespace
-{
-/// Of the energy ledger, by a single step.
-double largest_opening(const ImplicitParameters &run)
-{
-  return 0.1 * run.ledger_tolerance;
-}
-} // namespace
-
 template <int dim>
 std::optional<Complaint> Simulation<dim>::make_implicit_step(double time_step, bool may_be_unsteady)
 {
@@ -38,7 +29,8 @@ std::optional<Complaint> Simulation<dim>::make_implicit_step(double time_step, b
       implicit_solver->unsteadiness() > run.step_tolerance)
     fault = Complaint(fmt::format("velocities change otherwise than before by {:.2g} of the largest",
                                   implicit_solver->unsteadiness()));
-  if (!fault && !may_be_unsteady && implicit_solver->opening() > largest_opening(run))
+  constexpr double share_of_a_step = 0.1;
+  if (!fault && !may_be_unsteady && implicit_solver->opening() > share_of_a_step * run.ledger_tolerance)
   {
     // For good: where steps shorten and grow all the time, what each of them misses adds up.
     longest_step = 0.5 * time_step;

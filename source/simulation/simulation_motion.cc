@@ -183,12 +183,11 @@ void Simulation<dim>::check_ledger() const
                         state.time))
             .advise("look at the last fields; refine, or shorten the steps"));
   const LedgerLimit limit = find_ledger_limit();
-  const double tolerance = limit.tolerance;
-  if (std::abs(energy.residual()) <= tolerance)
+  if (std::abs(energy.residual()) <= limit.tolerance)
     return;
   Complaint fault = Complaint(fmt::format("the energy ledger does not close at t = {:.6g}", state.time))
                         .found(fmt::format("{:+.3g} of the largest energy", energy.residual()))
-                        .expected(fmt::format("at most {}", tolerance))
+                        .expected(fmt::format("at most {}", limit.tolerance))
                         .advise(limit.advice + ", or refine");
   for (std::size_t row = results.history.size() - 1; row > 0; --row)
     if (scene.blame_jump(results.history[row - 1].time, results.history[row].time, fault))

@@ -112,6 +112,7 @@ private:
   /// have as many of this rank's degrees of freedom as given.
   void build_as_saved(const std::vector<dealii::CellId::binary_type> &hexahedron_ids,
                       std::size_t n_owned_dofs);
+  /// Throws FileError unless the nodes are where those of the checkpoint were (collective).
   void check_same_nodes(const Vector &saved) const;
   void make_explicit_solver();
   /// Whether the contact forces of every step are solved for.
@@ -182,8 +183,8 @@ private:
   void gather_nodal_pressures();
   void gather_extremes();
   void print_results();
-  /// Of a body that has turned though its law is not made for that.
   void warn_of_many_steps(double n_steps, const std::string &advice);
+  /// Of a body that has turned though its law is not made for that.
   void warn_of_turns();
   void warn_of_open_ledger();
   /// Where pressure stands on points that are fewer than those of a face.
