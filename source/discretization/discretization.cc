@@ -235,10 +235,17 @@ void Discretization<dim>::add_cells(MeshPart<dim> &part)
 {
   const dealii::Quadrature<dim> rule = part.cell_rule(), lumping_rule = part.lumping_rule();
   dealii::FEValues<dim> values(part.mapping(), part.element, rule,
-                               dealii::update_values | dealii::update_gradients | dealii::update_JxW_values);
+                               dealii::update_values | dealii::update_inverse_jacobians |
+                                   dealii::update_JxW_values);
   dealii::FEValues<dim> lumping(part.mapping(), part.element, lumping_rule,
                                 dealii::update_values | dealii::update_JxW_values);
   const unsigned int n_dofs = part.element.n_dofs_per_cell(), n_nodes = n_dofs / dim;
+  std::vector<double> reference_gradients;
+  for (const dealii::Point<dim> &point : rule.get_points())
+    for (unsigned int node = 0; node < n_nodes; ++node)
+      for (unsigned int d = 0; d < dim; ++d)
+        reference_gradients.push_back(part.element.base_element(0).shape_grad(node, point)[d]);
+  cells.begin_kind(n_nodes, rule.size(), std::move(reference_gradients));
   std::vector<dealii::types::global_dof_index> cell_dofs(n_dofs);
   for (const auto &cell : part.own_cells())
   {
@@ -252,9 +259,9 @@ void Discretization<dim>::add_cells(MeshPart<dim> &part)
       volume += values.JxW(q);
     }
     for (unsigned int q = 0; q < rule.size(); ++q)
-      for (unsigned int node = 0; node < n_nodes; ++node)
-        for (unsigned int d = 0; d < dim; ++d)
-          cells.gradients.push_back(values.shape_grad(part.element.component_to_system_index(0, node), q)[d]);
+      for (unsigned int d = 0; d < dim; ++d)
+        for (unsigned int j = 0; j < dim; ++j)
+          cells.inverse_jacobians.push_back(values.inverse_jacobian(q)[d][j]);
     for (unsigned int node = 0; node < n_nodes; ++node)
     {
       for (unsigned int d = 0; d < dim; ++d)
@@ -273,7 +280,7 @@ void Discretization<dim>::add_cells(MeshPart<dim> &part)
     std::for_each(cells.nodal_measures.end() - n_nodes, cells.nodal_measures.end(),
                   [&](double &measure) { measure *= volume / lumped_volume; });
     cells.bodies.push_back(cell->material_id());
-    cells.close_cell();
+    ++cells.n_cells;
   }
 }
 

@@ -51,13 +51,29 @@ void CellKernel<dim, Law>::add_force(const CellGeometry &cell, const double *u, 
     for (int i = 0; i < dim * dim; ++i)
       stress[i] =
           cell.weights[q] * (response.stress[i] + volumes[q].pressure * volume_strains[q].gradient[i]);
-    const double *g = cell.gradients + q * cell.n_nodes * dim;
-    for (unsigned int a = 0; a < cell.n_nodes; ++a)
-      for (int i = 0; i < dim; ++i)
-        for (int j = 0; j < dim; ++j)
-          force[a * dim + i] -= stress[i * dim + j] * g[a * dim + j];
+    add_point_force<dim>(cell, q, stress, force);
   }
 }
+
+namespace
+{
+/// Turns a second derivative by ∂u_i/∂X_j, at i dim + j, into one by ∂u_i/∂ξ_d.
+template <int dim>
+void pull_back(const Eigen::Matrix<double, dim, dim> &inverse_jacobian,
+               Eigen::Matrix<double, dim * dim, dim * dim> &tangent)
+{
+  for (int i = 0; i < dim; ++i)
+  {
+    auto rows = tangent.template middleRows<dim>(i * dim);
+    rows = (inverse_jacobian * rows).eval();
+  }
+  for (int i = 0; i < dim; ++i)
+  {
+    auto columns = tangent.template middleCols<dim>(i * dim);
+    columns = (columns * inverse_jacobian.transpose()).eval();
+  }
+}
+} // namespace
 
 template <int dim, typename Law>
 void CellKernel<dim, Law>::compute_tangent(const CellGeometry &cell, const double *u, double *tangent)
@@ -75,7 +91,15 @@ void CellKernel<dim, Law>::compute_tangent(const CellGeometry &cell, const doubl
     if (!uses_mean_volume)
       A += volumes[q].modulus * volume_strains[q].gradient * volume_strains[q].gradient.transpose();
     A *= cell.weights[q];
-    const double *g = cell.gradients + q * cell.n_nodes * dim;
+    // From here on by the reference coordinates.
+    const Gradient inverse_jacobian = Eigen::Map<const Eigen::Matrix<double, dim, dim, Eigen::RowMajor>>(
+        cell.inverse_jacobians + q * dim * dim);
+    pull_back<dim>(inverse_jacobian, A);
+    Eigen::Matrix<double, dim * dim, 1> strain_gradient = volume_strains[q].gradient;
+    for (int i = 0; i < dim; ++i)
+      strain_gradient.template segment<dim>(i * dim) =
+          (inverse_jacobian * strain_gradient.template segment<dim>(i * dim)).eval();
+    const double *g = cell.reference_gradients + q * cell.n_nodes * dim;
     for (unsigned int a = 0; a < cell.n_nodes; ++a)
       for (int i = 0; i < dim; ++i)
       {
@@ -90,7 +114,7 @@ void CellKernel<dim, Law>::compute_tangent(const CellGeometry &cell, const doubl
               tangent_row[b * dim + k] += row[k * dim + l] * g[b * dim + l];
         for (int j = 0; j < dim; ++j)
           mean_strain_gradient[a * dim + i] +=
-              cell.weights[q] * volume_strains[q].gradient[i * dim + j] * g[a * dim + j];
+              cell.weights[q] * strain_gradient[i * dim + j] * g[a * dim + j];
       }
   }
   if (uses_mean_volume)

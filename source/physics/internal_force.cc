@@ -15,7 +15,8 @@ namespace signorini
 template <int dim>
 InternalForce<dim>::InternalForce(const std::vector<MaterialParameters> &materials,
                                   const Discretization<dim> &the_discretization)
-    : ForceTerm("elasticity", Kind::elastic, false), discretization(&the_discretization)
+    : ForceTerm("elasticity", Kind::elastic, false), discretization(&the_discretization),
+      batched(materials, the_discretization)
 {
   for (const MaterialParameters &material : materials)
   {
@@ -34,6 +35,9 @@ InternalForce<dim>::InternalForce(const std::vector<MaterialParameters> &materia
   if (std::any_of(kernels.begin(), kernels.end(),
                   [](const Kernel &kernel) { return std::holds_alternative<PlasticKernel>(kernel); }))
     make_plastic_states();
+  for (unsigned int cell = 0; cell < discretization->cells.n_cells; ++cell)
+    if (!batched.has_body(discretization->cells.bodies[cell]))
+      single_cells.push_back(cell);
 }
 
 template <int dim>
@@ -65,69 +69,76 @@ template <int dim>
 template <typename Action>
 void InternalForce<dim>::for_each_cell(const Action &action) const
 {
-  const CellTable<dim> &cells = discretization->cells;
   std::vector<double> u;
-  unsigned int cell = 0;
-  while (cell < cells.n_cells)
-  {
-    const unsigned int body = cells.bodies[cell];
-    std::visit(
-        [&](auto &kernel)
-        {
-          for (; cell < cells.n_cells && cells.bodies[cell] == body; ++cell)
-          {
-            const unsigned int *dofs = cells.cell_dofs(cell);
-            u.resize(cells.n_cell_dofs(cell));
-            for (unsigned int i = 0; i < u.size(); ++i)
-              u[i] = displacement->local_element(dofs[i]);
-            CellGeometry geometry = geometry_of(cells, cell);
-            if constexpr (std::is_same_v<decltype(kernel), PlasticKernel &>)
-              geometry.states = &plastic_states[first_plastic_states[cell]];
-            action(kernel, cell, geometry, u.data());
-          }
-        },
-        kernels[body]);
-  }
+  for (unsigned int cell = 0; cell < discretization->cells.n_cells; ++cell)
+    with_cell(cell, u, action);
+}
+
+template <int dim>
+template <typename Action>
+void InternalForce<dim>::with_cell(unsigned int cell, std::vector<double> &u, const Action &action) const
+{
+  const CellTable<dim> &cells = discretization->cells;
+  const unsigned int *dofs = cells.cell_dofs(cell);
+  u.resize(cells.n_cell_dofs(cell));
+  for (unsigned int i = 0; i < u.size(); ++i)
+    u[i] = displacement->local_element(dofs[i]);
+  CellGeometry geometry = geometry_of(cells, cell);
+  std::visit(
+      [&](auto &kernel)
+      {
+        if constexpr (std::is_same_v<decltype(kernel), PlasticKernel &>)
+          geometry.states = &plastic_states[first_plastic_states[cell]];
+        action(kernel, cell, geometry, u.data());
+      },
+      kernels[cells.bodies[cell]]);
 }
 
 template <int dim>
 double InternalForce<dim>::energy() const
 {
-  double sum = 0.;
-  for_each_cell([&](auto &kernel, unsigned int, const CellGeometry &geometry, const double *u)
-                { sum += kernel.energy(geometry, u); });
+  double sum = batched.energy(*displacement);
+  std::vector<double> u;
+  for (const unsigned int cell : single_cells)
+    with_cell(cell, u,
+              [&](auto &kernel, unsigned int, const CellGeometry &geometry, const double *values)
+              { sum += kernel.energy(geometry, values); });
   return (step_start != nullptr ? 2. : 1.) * dealii::Utilities::MPI::sum(sum, discretization->communicator());
 }
 
 template <int dim>
 void InternalForce<dim>::add_force(Vector &force) const
 {
+  batched.add_force(*displacement, force);
   const CellTable<dim> &cells = discretization->cells;
-  std::vector<double> cell_force;
-  for_each_cell(
-      [&](auto &kernel, unsigned int cell, const CellGeometry &geometry, const double *u)
-      {
-        cell_force.assign(cells.n_cell_dofs(cell), 0.);
-        kernel.add_force(geometry, u, cell_force.data());
-        const unsigned int *dofs = cells.cell_dofs(cell);
-        for (unsigned int i = 0; i < cell_force.size(); ++i)
-          force.local_element(dofs[i]) += cell_force[i];
-      });
+  std::vector<double> u, cell_force;
+  for (const unsigned int cell : single_cells)
+    with_cell(cell, u,
+              [&](auto &kernel, unsigned int, const CellGeometry &geometry, const double *values)
+              {
+                cell_force.assign(cells.n_cell_dofs(cell), 0.);
+                kernel.add_force(geometry, values, cell_force.data());
+                const unsigned int *dofs = cells.cell_dofs(cell);
+                for (unsigned int i = 0; i < cell_force.size(); ++i)
+                  force.local_element(dofs[i]) += cell_force[i];
+              });
 }
 
 template <int dim>
 void InternalForce<dim>::for_each_tangent(
+    const std::vector<unsigned int> &cells,
     const std::function<void(unsigned int, const std::vector<double> &)> &visit) const
 {
-  std::vector<double> tangent;
-  for_each_cell(
-      [&](auto &kernel, unsigned int cell, const CellGeometry &geometry, const double *u)
-      {
-        const unsigned int n = discretization->cells.n_cell_dofs(cell);
-        tangent.resize(n * n);
-        kernel.compute_tangent(geometry, u, tangent.data());
-        visit(cell, tangent);
-      });
+  std::vector<double> u, tangent;
+  for (const unsigned int cell : cells)
+    with_cell(cell, u,
+              [&](auto &kernel, unsigned int, const CellGeometry &geometry, const double *values)
+              {
+                const unsigned int n = discretization->cells.n_cell_dofs(cell);
+                tangent.resize(n * n);
+                kernel.compute_tangent(geometry, values, tangent.data());
+                visit(cell, tangent);
+              });
 }
 
 template <int dim>
@@ -138,21 +149,23 @@ void InternalForce<dim>::add_tangent(TangentSystem &system) const
   dealii::FullMatrix<double> matrix;
   dealii::Vector<double> zero;
   std::vector<dealii::types::global_dof_index> dofs;
-  for_each_tangent(
-      [&](unsigned int cell, const std::vector<double> &tangent)
-      {
-        const unsigned int n = cells.n_cell_dofs(cell);
-        matrix.reinit(n, n);
-        zero.reinit(n);
-        dofs.resize(n);
-        matrix.fill(tangent.data());
-        if (step_start != nullptr)
-          matrix *= 0.5;
-        for (unsigned int i = 0; i < n; ++i)
-          dofs[i] = partitioner.local_to_global(cells.cell_dofs(cell)[i]);
-        system.constraints->distribute_local_to_global(matrix, zero, dofs, system.matrix,
-                                                       system.right_hand_side);
-      });
+  std::vector<unsigned int> all_cells(cells.n_cells);
+  std::iota(all_cells.begin(), all_cells.end(), 0u);
+  for_each_tangent(all_cells,
+                   [&](unsigned int cell, const std::vector<double> &tangent)
+                   {
+                     const unsigned int n = cells.n_cell_dofs(cell);
+                     matrix.reinit(n, n);
+                     zero.reinit(n);
+                     dofs.resize(n);
+                     matrix.fill(tangent.data());
+                     if (step_start != nullptr)
+                       matrix *= 0.5;
+                     for (unsigned int i = 0; i < n; ++i)
+                       dofs[i] = partitioner.local_to_global(cells.cell_dofs(cell)[i]);
+                     system.constraints->distribute_local_to_global(matrix, zero, dofs, system.matrix,
+                                                                    system.right_hand_side);
+                   });
 }
 
 template <int dim>
@@ -170,8 +183,7 @@ void InternalForce<dim>::add_magnitudes(Vector &magnitudes) const
           double strain = 0.;
           for (unsigned int a = 0; a < geometry.n_nodes; ++a)
           {
-            const double *gradient = geometry.gradients + (q * geometry.n_nodes + a) * dim;
-            slopes[a] = Eigen::Map<const SpatialVector<dim>>(gradient).norm();
+            slopes[a] = shape_gradient<dim>(geometry, q, a).norm();
             strain += slopes[a] * Eigen::Map<const SpatialVector<dim>>(u + a * dim).norm();
           }
           const double stress = moduli[cells.bodies[cell]] * strain;
@@ -313,11 +325,24 @@ std::vector<double> InternalForce<dim>::turns_taken_for_strain() const
 }
 
 template <int dim>
-std::vector<SpatialTensor<dim>> InternalForce<dim>::stretches() const
+std::vector<typename BatchedForce<dim>::Stretch> InternalForce<dim>::stretches() const
 {
-  std::vector<SpatialTensor<dim>> all;
-  for_each_cell([&](auto &kernel, unsigned int, const CellGeometry &geometry, const double *u)
-                { all.push_back(kernel.mean_stretch(geometry, u)); });
+  std::vector<typename BatchedForce<dim>::Stretch> all(discretization->cells.n_cells);
+  batched.compute_stretches(*displacement, all);
+  std::vector<double> u;
+  for (const unsigned int cell : single_cells)
+    with_cell(cell, u,
+              [&](auto &kernel, unsigned int, const CellGeometry &geometry, const double *values)
+              {
+                const SpatialTensor<dim> stretch = kernel.mean_stretch(geometry, values);
+                unsigned int entry = dim;
+                for (unsigned int i = 0; i < dim; ++i)
+                {
+                  all[cell][i] = stretch(i, i);
+                  for (unsigned int j = i + 1; j < dim; ++j)
+                    all[cell][entry++] = stretch(i, j);
+                }
+              });
   return all;
 }
 

@@ -16,15 +16,6 @@ ViscousForce<dim>::ViscousForce(const std::vector<MaterialParameters> &materials
 }
 
 template <int dim>
-template <typename Visit>
-void ViscousForce<dim>::for_each_cell(const Visit &visit) const
-{
-  for (unsigned int cell = 0; cell < discretization->cells.n_cells; ++cell)
-    if (laws[discretization->cells.bodies[cell]].viscosity > 0.)
-      visit(cell);
-}
-
-template <int dim>
 void ViscousForce<dim>::add_cell_force(unsigned int cell, const double *displacement, const double *velocity,
                                        double *force) const
 {
@@ -39,11 +30,9 @@ void ViscousForce<dim>::add_cell_force(unsigned int cell, const double *displace
     const SpatialTensor<dim> product = F.transpose() * displacement_gradient<dim>(geometry, q, velocity);
     const SpatialTensor<dim> rate = 0.5 * (product + product.transpose()),
                              deviator = rate - rate.trace() / 3. * SpatialTensor<dim>::Identity();
-    const SpatialTensor<dim> stress = 2. * law.viscosity * geometry.weights[q] * F * deviator;
-    const double *gradients = geometry.gradients + q * geometry.n_nodes * dim;
-    for (unsigned int a = 0; a < geometry.n_nodes; ++a)
-      Eigen::Map<SpatialVector<dim>>(force + a * dim) -=
-          stress * Eigen::Map<const SpatialVector<dim>>(gradients + a * dim);
+    const Eigen::Matrix<double, dim, dim, Eigen::RowMajor> stress =
+        2. * law.viscosity * geometry.weights[q] * F * deviator;
+    add_point_force<dim>(geometry, q, stress.data(), force);
   }
 }
 
@@ -52,47 +41,50 @@ void ViscousForce<dim>::add_force(const State &state, const Vector &velocity, Ve
 {
   const CellTable<dim> &cells = discretization->cells;
   std::vector<double> u, v, cell_force;
-  for_each_cell(
-      [&](unsigned int cell)
-      {
-        const unsigned int n = cells.n_cell_dofs(cell), *dofs = cells.cell_dofs(cell);
-        u.resize(n);
-        v.resize(n);
-        for (unsigned int i = 0; i < n; ++i)
-        {
-          u[i] = state.displacement.local_element(dofs[i]);
-          v[i] = velocity.local_element(dofs[i]);
-        }
-        cell_force.assign(n, 0.);
-        add_cell_force(cell, u.data(), v.data(), cell_force.data());
-        for (unsigned int i = 0; i < n; ++i)
-          force.local_element(dofs[i]) += cell_force[i];
-      });
+  for (unsigned int cell = 0; cell < cells.n_cells; ++cell)
+  {
+    if (!is_viscous(cell))
+      continue;
+    const unsigned int n = cells.n_cell_dofs(cell), *dofs = cells.cell_dofs(cell);
+    u.resize(n);
+    v.resize(n);
+    for (unsigned int i = 0; i < n; ++i)
+    {
+      u[i] = state.displacement.local_element(dofs[i]);
+      v[i] = velocity.local_element(dofs[i]);
+    }
+    cell_force.assign(n, 0.);
+    add_cell_force(cell, u.data(), v.data(), cell_force.data());
+    for (unsigned int i = 0; i < n; ++i)
+      force.local_element(dofs[i]) += cell_force[i];
+  }
 }
 
 template <int dim>
 void ViscousForce<dim>::for_each_damping(
-    const State &state, const std::function<void(unsigned int, const std::vector<double> &)> &visit) const
+    const std::vector<unsigned int> &cells, const State &state,
+    const std::function<void(unsigned int, const std::vector<double> &)> &visit) const
 {
-  const CellTable<dim> &cells = discretization->cells;
+  const CellTable<dim> &table = discretization->cells;
   std::vector<double> u, v, damping;
-  for_each_cell(
-      [&](unsigned int cell)
-      {
-        const unsigned int n = cells.n_cell_dofs(cell), *dofs = cells.cell_dofs(cell);
-        u.resize(n);
-        for (unsigned int i = 0; i < n; ++i)
-          u[i] = state.displacement.local_element(dofs[i]);
-        // The force is linear in the velocity by a symmetric matrix: its rows are forces at unit velocities.
-        damping.assign(n * n, 0.);
-        for (unsigned int i = 0; i < n; ++i)
-        {
-          v.assign(n, 0.);
-          v[i] = -1.;
-          add_cell_force(cell, u.data(), v.data(), &damping[i * n]);
-        }
-        visit(cell, damping);
-      });
+  for (const unsigned int cell : cells)
+  {
+    if (!is_viscous(cell))
+      continue;
+    const unsigned int n = table.n_cell_dofs(cell), *dofs = table.cell_dofs(cell);
+    u.resize(n);
+    for (unsigned int i = 0; i < n; ++i)
+      u[i] = state.displacement.local_element(dofs[i]);
+    // The force is linear in the velocity by a symmetric matrix: its rows are forces at unit velocities.
+    damping.assign(n * n, 0.);
+    for (unsigned int i = 0; i < n; ++i)
+    {
+      v.assign(n, 0.);
+      v[i] = -1.;
+      add_cell_force(cell, u.data(), v.data(), &damping[i * n]);
+    }
+    visit(cell, damping);
+  }
 }
 
 template class ViscousForce<2>;

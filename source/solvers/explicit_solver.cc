@@ -16,8 +16,11 @@ ExplicitSolver<dim>::ExplicitSolver(const Discretization<dim> &the_discretizatio
                                     const ExplicitParameters &explicit_parameters, RunTime &the_run_time)
     : discretization(&the_discretization), supports(&supported_dofs), materials(&the_materials),
       forces(&the_forces), parameters(explicit_parameters), run_time(&the_run_time),
-      mass(make_lumped_mass(the_materials, the_discretization))
+      mass(make_lumped_mass(the_materials, the_discretization)), inverse_mass(mass),
+      bulk_bound(*the_forces.elasticity, the_forces.viscosities, the_materials, the_discretization)
 {
+  for (unsigned int i = 0; i < mass.locally_owned_size(); ++i)
+    inverse_mass.local_element(i) = mass.local_element(i) > 0. ? 1. / mass.local_element(i) : 0.;
   for (Vector *vector :
        {&force, &load_force, &damping_force, &one_damping_force, &viscous_force, &external_force, &old_force,
         &old_load_force, &old_damping_force, &old_viscous_force})
@@ -36,6 +39,8 @@ ExplicitSolver<dim>::ExplicitSolver(const Discretization<dim> &the_discretizatio
   has_external_forces = !forces->loads.empty();
   for (const auto &contact : forces->contacts)
     has_external_forces |= contact->is_external && !implicit_contact;
+  has_work = !forces->loads.empty() || !forces->damped_contacts.empty() || !forces->viscosities.empty() ||
+             !supports->entries().empty() || implicit_contact;
 }
 
 template <int dim>
@@ -54,7 +59,7 @@ void ExplicitSolver<dim>::begin(State &state)
   compute_forces(state, state.velocity);
   for (const auto &friction : forces->frictions)
     friction->commit();
-  update_bulk_bound(state);
+  bulk_bound.update(state);
   take_stock(state);
 }
 
@@ -78,34 +83,10 @@ void ExplicitSolver<dim>::resume(const ExplicitSolver &before, const VectorAndMo
 }
 
 template <int dim>
-void ExplicitSolver<dim>::update_bulk_bound(const State &state)
-{
-  bulk_frequency_squared = compute_bulk_frequency_squared(*forces->elasticity, *materials, *discretization);
-  for (const auto &viscosity : forces->viscosities)
-    bulk_damping_rate = compute_bulk_damping_rate(*viscosity, state, *materials, *discretization);
-  if (forces->elasticity->is_nonlinear())
-    stretches_of_bound = forces->elasticity->stretches();
-}
-
-template <int dim>
-bool ExplicitSolver<dim>::is_bulk_bound_stale()
-{
-  constexpr unsigned int n_steps_between_looks = 10;
-  constexpr double largest_change = 0.02;
-  if (!forces->elasticity->is_nonlinear() || ++n_steps % n_steps_between_looks != 0)
-    return false;
-  const std::vector<SpatialTensor<dim>> stretches = forces->elasticity->stretches();
-  double change = 0.;
-  for (std::size_t cell = 0; cell < stretches.size(); ++cell)
-    change = std::max(change, (stretches[cell] - stretches_of_bound[cell]).norm());
-  return dealii::Utilities::MPI::max(change, discretization->communicator()) > largest_change;
-}
-
-template <int dim>
 double ExplicitSolver<dim>::stable_step() const
 {
-  const double bulk =
-      parameters.bulk_step_factor * critical_time_step(bulk_frequency_squared, bulk_damping_rate);
+  const double bulk = parameters.bulk_step_factor *
+                      critical_time_step(bulk_bound.frequency_squared(), bulk_bound.damping_rate());
   if (implicit_contact)
     return bulk;
   unsigned int n_searches = 0;
@@ -121,8 +102,9 @@ double ExplicitSolver<dim>::stable_step() const
   }
   if (contact_bound.frequency_squared == 0.)
     return bulk;
-  const double with_contact = critical_time_step(bulk_frequency_squared + contact_bound.frequency_squared,
-                                                 bulk_damping_rate + contact_bound.damping_rate);
+  const double with_contact =
+      critical_time_step(bulk_bound.frequency_squared() + contact_bound.frequency_squared,
+                         bulk_bound.damping_rate() + contact_bound.damping_rate);
   return std::min(bulk, parameters.contact_step_factor * with_contact);
 }
 
@@ -130,7 +112,8 @@ template <int dim>
 void ExplicitSolver<dim>::compute_forces(const State &state, const Vector &velocity)
 {
   force = 0.;
-  external_force = 0.;
+  if (has_external_forces)
+    external_force = 0.;
   {
     const auto section = run_time->enter("elasticity");
     forces->elasticity->update(state);
@@ -163,6 +146,8 @@ void ExplicitSolver<dim>::compute_viscous_forces(const State &state, const Vecto
 template <int dim>
 void ExplicitSolver<dim>::compute_load_forces(const State &state)
 {
+  if (forces->loads.empty())
+    return;
   load_force = 0.;
   for (const auto &load : forces->loads)
   {
@@ -185,13 +170,12 @@ void ExplicitSolver<dim>::step(double time_step, State &state)
   old_viscous_force.swap(viscous_force);
   std::swap(old_external, external);
   old_obstacle_forces.swap(obstacle_forces);
-  old_displacement = state.displacement;
-  old_velocity = state.velocity;
-
-  const unsigned int n = mass.locally_owned_size();
-  for (unsigned int i = 0; i < n; ++i)
-    if (mass.local_element(i) > 0.)
-      state.velocity.local_element(i) += 0.5 * time_step / mass.local_element(i) * old_force.local_element(i);
+  if (has_work)
+  {
+    old_displacement = state.displacement;
+    old_velocity = state.velocity;
+  }
+  kick(time_step, old_force, state.velocity);
   state.displacement.add(time_step, state.velocity);
   state.time += time_step;
   supports->impose(state.time, state.displacement);
@@ -213,9 +197,7 @@ void ExplicitSolver<dim>::step(double time_step, State &state)
   half_velocity_of_supports.resize(supports->owned_dofs().size());
   for (unsigned int i = 0; i < half_velocity_of_supports.size(); ++i)
     half_velocity_of_supports[i] = state.velocity.local_element(supports->owned_dofs()[i]);
-  for (unsigned int i = 0; i < n; ++i)
-    if (mass.local_element(i) > 0.)
-      state.velocity.local_element(i) += 0.5 * time_step / mass.local_element(i) * force.local_element(i);
+  kick(time_step, force, state.velocity);
   for (unsigned int i = 0; i < half_velocity_of_supports.size(); ++i)
     state.velocity.local_element(supports->owned_dofs()[i]) = half_velocity_of_supports[i];
   discretization->distribute(state.velocity);
@@ -223,15 +205,28 @@ void ExplicitSolver<dim>::step(double time_step, State &state)
   book_step(state, time_step);
   if (implicit_contact)
     add_half_step_of_contact(state);
-  if (is_bulk_bound_stale())
-    update_bulk_bound(state);
+  constexpr unsigned int n_steps_between_looks = 10;
+  if (++n_steps % n_steps_between_looks == 0)
+    bulk_bound.update_strained(state);
+}
+
+template <int dim>
+void ExplicitSolver<dim>::kick(double time_step, const Vector &by, Vector &velocity) const
+{
+  const double half_step = 0.5 * time_step, *factor = inverse_mass.begin(), *acting = by.begin();
+  double *changed = velocity.begin();
+  for (unsigned int i = 0; i < mass.locally_owned_size(); ++i)
+    changed[i] += half_step * factor[i] * acting[i];
 }
 
 template <int dim>
 void ExplicitSolver<dim>::book_step(const State &state, double time_step)
 {
-  increment = state.displacement;
-  increment -= old_displacement;
+  if (has_work)
+  {
+    increment = state.displacement;
+    increment -= old_displacement;
+  }
   if (!forces->loads.empty())
     energy_ledger.work_of_loads += 0.5 * (old_load_force * increment + load_force * increment);
   if (!forces->damped_contacts.empty())

@@ -253,6 +253,16 @@ struct BuiltScene
   RunTime run_time;
 };
 
+/// BulkBound's at the state of the last update of the elasticity [1/s²].
+template <int dim>
+double bulk_frequency_squared(const BuiltScene<dim> &built)
+{
+  BulkBound<dim> bound(*built.forces.elasticity, built.forces.viscosities, built.scene.materials,
+                       built.discretization);
+  bound.update(built.state);
+  return bound.frequency_squared();
+}
+
 /// −dE/du·direction by a central difference against f·direction.
 template <int dim>
 void expect_force_is_energy_gradient(BuiltScene<dim> &built, ForceTerm &term, const Vector &displacement,

@@ -14,15 +14,18 @@ struct CellGeometry
 {
   unsigned int n_nodes = 0;
   unsigned int n_points = 0;
-  const double *gradients = nullptr;    ///< [point][node][direction]
-  const double *weights = nullptr;      ///< [point]
-  const PlasticState *states = nullptr; ///< [point] after the last accepted step; of J2Plastic only
+  const double *reference_gradients = nullptr; ///< [point][node][direction]
+  const double *inverse_jacobians = nullptr;   ///< [point][d][j]
+  const double *weights = nullptr;             ///< [point]
+  const PlasticState *states = nullptr;        ///< [point] after the last accepted step; of J2Plastic only
 };
 
 template <int dim>
 CellGeometry geometry_of(const CellTable<dim> &cells, unsigned int cell)
 {
-  return {cells.n_nodes(cell), cells.n_points(cell), cells.cell_gradients(cell), cells.cell_weights(cell)};
+  const typename CellTable<dim>::Kind &kind = cells.kind_of(cell);
+  return {kind.n_nodes, kind.n_points, kind.reference_gradients.data(), cells.cell_inverse_jacobians(cell),
+          cells.cell_weights(cell)};
 }
 
 /// ∂u_i/∂X_j at a point of a cell; `u`: [node][component].
@@ -30,16 +33,51 @@ template <int dim>
 Eigen::Matrix<double, dim, dim> displacement_gradient(const CellGeometry &cell, unsigned int point,
                                                       const double *u)
 {
-  double H[dim][dim] = {};
-  const double *g = cell.gradients + point * cell.n_nodes * dim;
+  double by_reference[dim][dim] = {};
+  const double *g = cell.reference_gradients + point * cell.n_nodes * dim;
   for (unsigned int a = 0; a < cell.n_nodes; ++a)
     for (int i = 0; i < dim; ++i)
-      for (int j = 0; j < dim; ++j)
-        H[i][j] += u[a * dim + i] * g[a * dim + j];
+      for (int d = 0; d < dim; ++d)
+        by_reference[i][d] += u[a * dim + i] * g[a * dim + d];
+  const double *K = cell.inverse_jacobians + point * dim * dim;
   Eigen::Matrix<double, dim, dim> gradient;
   for (int i = 0; i < dim; ++i)
     for (int j = 0; j < dim; ++j)
-      gradient(i, j) = H[i][j];
+    {
+      gradient(i, j) = by_reference[i][0] * K[j];
+      for (int d = 1; d < dim; ++d)
+        gradient(i, j) += by_reference[i][d] * K[d * dim + j];
+    }
+  return gradient;
+}
+
+/// Adds −P : ∂δu/∂X of one point to `force` [node][component]; `stress`: P times the point's weight, by rows.
+template <int dim>
+void add_point_force(const CellGeometry &cell, unsigned int point, const double *stress, double *force)
+{
+  const double *K = cell.inverse_jacobians + point * dim * dim;
+  double by_reference[dim][dim] = {};
+  for (int i = 0; i < dim; ++i)
+    for (int d = 0; d < dim; ++d)
+      for (int j = 0; j < dim; ++j)
+        by_reference[i][d] += stress[i * dim + j] * K[d * dim + j];
+  const double *g = cell.reference_gradients + point * cell.n_nodes * dim;
+  for (unsigned int a = 0; a < cell.n_nodes; ++a)
+    for (int i = 0; i < dim; ++i)
+      for (int d = 0; d < dim; ++d)
+        force[a * dim + i] -= by_reference[i][d] * g[a * dim + d];
+}
+
+/// ∂N/∂X of a node at a point of a cell [1/m].
+template <int dim>
+Eigen::Matrix<double, dim, 1> shape_gradient(const CellGeometry &cell, unsigned int point, unsigned int node)
+{
+  const double *K = cell.inverse_jacobians + point * dim * dim,
+               *g = cell.reference_gradients + (point * cell.n_nodes + node) * dim;
+  Eigen::Matrix<double, dim, 1> gradient = Eigen::Matrix<double, dim, 1>::Zero();
+  for (int d = 0; d < dim; ++d)
+    for (int j = 0; j < dim; ++j)
+      gradient[j] += g[d] * K[d * dim + j];
   return gradient;
 }
 

@@ -3,6 +3,7 @@
 
 #include "signorini/base/spatial_vector.h"
 #include "signorini/discretization/discretization.h"
+#include "signorini/physics/batched_force.h"
 #include "signorini/physics/cell_kernel.h"
 #include "signorini/physics/force_term.h"
 
@@ -29,8 +30,9 @@ public:
   void add_force(Vector &force) const override;
   void add_tangent(TangentSystem &system) const override;
 
-  /// Calls `visit(cell, tangent)` with the row-major tangent of every own cell.
-  void for_each_tangent(const std::function<void(unsigned int, const std::vector<double> &)> &visit) const;
+  /// The row-major tangent of every one of these own cells, as `visit(cell, tangent)`.
+  void for_each_tangent(const std::vector<unsigned int> &cells,
+                        const std::function<void(unsigned int, const std::vector<double> &)> &visit) const;
 
   /// Adds to every local and ghost entry the sum of the magnitudes that its force is the small difference of:
   /// what round-off is relative to [N].
@@ -63,7 +65,7 @@ public:
   bool is_nonlinear() const;
 
   /// Mean of H + Hᵀ + HᵀH over every own cell, twice Green's strain: a rigid motion leaves it at zero.
-  std::vector<SpatialTensor<dim>> stretches() const;
+  std::vector<typename BatchedForce<dim>::Stretch> stretches() const;
 
   /// Mean true stress of every own cell [Pa].
   std::vector<Eigen::Matrix3d> stresses() const;
@@ -87,12 +89,18 @@ private:
   template <typename Action>
   void for_each_cell(const Action &action) const;
 
+  /// The same for one cell, with `u` as scratch memory.
+  template <typename Action>
+  void with_cell(unsigned int cell, std::vector<double> &u, const Action &action) const;
+
   const Discretization<dim> *discretization;
   const Vector *displacement = nullptr; ///< that everything speaks of
   const Vector *step_start = nullptr;
   Vector middle;                            ///< of the step
   std::vector<double> moduli;               ///< of compression without widening, κ + 4μ/3, one a body [Pa]
   mutable std::vector<Kernel> kernels;      ///< one a body; mutable for their scratch memory
+  BatchedForce<dim> batched;                ///< the forces of most bodies
+  std::vector<unsigned int> single_cells;   ///< own ones of the others
   std::vector<PlasticState> plastic_states; ///< of all points of own cells of bodies that may yield
   std::vector<std::size_t>
       first_plastic_states; ///< [own cell] and the end; empty where no body of any rank may yield

@@ -24,9 +24,9 @@ public:
   /// Adds the force at these displacements and velocities to local and ghost entries; the caller collects.
   void add_force(const State &state, const Vector &velocity, Vector &force) const;
 
-  /// Calls `visit(cell, damping)` for every own cell that has a viscosity, with the matrix that its force is
-  /// minus the product of with its velocities [N s/m], row-major with rows [node][component].
-  void for_each_damping(const State &state,
+  /// Calls `visit(cell, damping)` for every one of these own cells that has a viscosity, with the matrix that
+  /// its force is minus the product of with its velocities [N s/m], row-major with rows [node][component].
+  void for_each_damping(const std::vector<unsigned int> &cells, const State &state,
                         const std::function<void(unsigned int, const std::vector<double> &)> &visit) const;
 
 private:
@@ -36,9 +36,7 @@ private:
     bool has_finite_strain = false;
   };
 
-  /// Calls `visit(cell)` for every own cell that has a viscosity.
-  template <typename Visit>
-  void for_each_cell(const Visit &visit) const;
+  bool is_viscous(unsigned int cell) const { return laws[discretization->cells.bodies[cell]].viscosity > 0.; }
 
   /// Adds the force of one cell, all [node][component].
   void add_cell_force(unsigned int cell, const double *displacement, const double *velocity,

@@ -2,25 +2,9 @@
 #pragma once
 
 #include "signorini/contact/coupling/contact_force.h"
-#include "signorini/physics/internal_force.h"
-#include "signorini/physics/viscous_force.h"
 
 namespace signorini
 {
-/// Largest squared natural frequency of the bodies [1/s²]: the maximum over cells of the largest eigenvalue
-/// of (cell tangent, cell lumped mass), which bounds that of the assembled system from above (B. Irons,
-/// 1970).
-template <int dim>
-double compute_bulk_frequency_squared(const InternalForce<dim> &elasticity,
-                                      const std::vector<MaterialParameters> &materials,
-                                      const Discretization<dim> &discretization);
-
-/// The same of the damping by viscosity [1/s].
-template <int dim>
-double compute_bulk_damping_rate(const ViscousForce<dim> &viscosity, const State &state,
-                                 const std::vector<MaterialParameters> &materials,
-                                 const Discretization<dim> &discretization);
-
 /// What contact adds to the frequencies at most.
 struct ContactBound
 {

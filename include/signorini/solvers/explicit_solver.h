@@ -5,6 +5,7 @@
 #include "signorini/discretization/supports.h"
 #include "signorini/physics/internal_force.h"
 #include "signorini/physics/momentum.h"
+#include "signorini/solvers/bulk_bound.h"
 #include "signorini/solvers/critical_step.h"
 #include "signorini/solvers/implicit_contact.h"
 #include "signorini/solvers/motion_solver.h"
@@ -58,8 +59,7 @@ public:
     MotionSolver<dim>::serialize(archive, version);
     archive &force &load_force &damping_force &viscous_force &external &obstacle_forces;
     archive &half_step_of_contact &last_time_step &n_steps;
-    archive &bulk_frequency_squared &bulk_damping_rate &stretches_of_bound;
-    archive &contact_bound &n_searches_of_bound;
+    archive &bulk_bound &contact_bound &n_searches_of_bound;
     if (implicit_contact)
       archive &*implicit_contact;
   }
@@ -67,11 +67,10 @@ public:
 private:
   using MotionSolver<dim>::energy_ledger;
 
+  /// Velocities by half a step of accelerations by these forces.
+  void kick(double time_step, const Vector &by, Vector &velocity) const;
   /// Computes the first forces and the energies and momenta with them.
   void begin(State &state);
-  void update_bulk_bound(const State &state);
-  /// Where the law is not linear, every few steps: has any cell been strained by more than a little since?
-  bool is_bulk_bound_stale();
   void compute_forces(const State &state, const Vector &velocity);
   void compute_contact_forces(const State &state, const Vector &velocity);
   void compute_viscous_forces(const State &state, const Vector &velocity);
@@ -92,7 +91,7 @@ private:
   ExplicitParameters parameters;
   RunTime *run_time;
 
-  Vector mass;
+  Vector mass, inverse_mass; ///< the latter is zero where there is none
   Vector force, load_force, damping_force, one_damping_force, viscous_force, external_force;
   Vector old_force, old_load_force, old_damping_force, old_viscous_force;
   Vector old_displacement, old_velocity, increment;
@@ -103,9 +102,8 @@ private:
   std::vector<double> half_velocity_of_supports;
   std::vector<unsigned int> dofs_of_supported_nodes; ///< local indices, free components included
   VectorAndMoment external, old_external;
-  bool has_external_forces = false;
-  double bulk_frequency_squared = 0., bulk_damping_rate = 0.;
-  std::vector<SpatialTensor<dim>> stretches_of_bound; ///< [own cell]; laws that are not linear only
+  bool has_external_forces = false, has_work = false; ///< forces that are booked over the step's increments
+  BulkBound<dim> bulk_bound;
   unsigned int n_steps = 0;
   mutable ContactBound contact_bound;
   mutable unsigned int n_searches_of_bound = 0;

@@ -5,6 +5,7 @@
 #include "built_scene.h"
 
 #include <cmath>
+#include <numeric>
 
 using namespace signorini;
 using namespace signorini::test;
@@ -122,7 +123,9 @@ TYPED_TEST(Viscosity, DampingMatrixGivesTheForce)
   built.state.velocity = built.random_vector(1., 2);
   const ViscousForce<dim> viscous(built.scene.materials, built.discretization);
   Vector product = built.discretization.make_vector();
-  viscous.for_each_damping(built.state,
+  std::vector<unsigned int> all_cells(built.discretization.cells.n_cells);
+  std::iota(all_cells.begin(), all_cells.end(), 0u);
+  viscous.for_each_damping(all_cells, built.state,
                            [&](unsigned int cell, const std::vector<double> &damping)
                            {
                              const unsigned int n = built.discretization.cells.n_cell_dofs(cell),
