@@ -82,6 +82,6 @@ TEST_P(Rejects, File)
 }
 
 INSTANTIATE_TEST_SUITE_P(All, Rejects, testing::ValuesIn(find_files()),
-                         [](const auto &info) { return info.param.stem().string(); });
+                         [](const auto &file) { return file.param.stem().string(); });
 } // namespace
 } // namespace signorini
