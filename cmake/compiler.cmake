@@ -1,13 +1,19 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-# Warnings for our own code, a faster linker and a compiler cache where they are installed.
+# Warnings for our own code, no debug information in Release, a faster linker and a compiler cache where they are installed.
 
-add_library(signorini_warnings INTERFACE)
-target_compile_options(signorini_warnings INTERFACE
+add_library(signorini_options INTERFACE)
+target_compile_options(signorini_options INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wfloat-conversion -Wnon-virtual-dtor
-  -Woverloaded-virtual -Wnull-dereference -Wno-unused-local-typedefs -Wno-missing-braces -Werror)
+  -Woverloaded-virtual -Wnull-dereference -Wno-unused-local-typedefs -Wno-missing-braces -Werror
+  # Debian's deal.II hands on the -g of its own package, which nearly doubles the time of a build.
+  $<$<CONFIG:Release>:-g0>)
 
 if(SIGNORINI_SANITIZE)
-  add_compile_options(-O1 -fsanitize=address,undefined -fno-omit-frame-pointer) # -O0 takes a hundred times as long
+  # -O0 takes a hundred times as long. What is left out more than halves the time to compile and to run: the address
+  # sanitizer stops at null pointers and outside of objects too, Eigen asserts its alignment itself, and wrong dynamic
+  # types go unseen, of which contact has hardly any.
+  add_compile_options(-O1 -fsanitize=address,undefined -fno-sanitize=null,alignment,object-size,vptr
+                      -fno-omit-frame-pointer)
   add_link_options(-fsanitize=address,undefined)
 endif()
 

@@ -24,7 +24,7 @@ function(add_for_each_instruction_set target source)
     target_compile_options(${part} PRIVATE -O3 -ffp-contract=fast -fno-math-errno -fno-trapping-math -Wno-psabi
       $<$<CXX_COMPILER_ID:GNU>:--param=max-completely-peeled-insns=4000>
       $<$<CXX_COMPILER_ID:GNU>:--param=max-completely-peel-times=16> ${flags_of_${set}})
-    target_link_libraries(${part} PRIVATE signorini_warnings)
+    target_link_libraries(${part} PRIVATE signorini_options)
     target_sources(${target} PRIVATE $<TARGET_OBJECTS:${part}>)
   endforeach()
 endfunction()

@@ -64,12 +64,6 @@ build()
   fi
 }
 
-# has_target PRESET TARGET: whether a configured build folder knows the target.
-has_target()
-{
-  ninja -C "$root/build/$1" -t query "$2" >/dev/null 2>&1
-}
-
 # Open MPI refuses root by default, and its single-copy messages need rights that containers withhold.
 mpi_environment()
 {

@@ -14,6 +14,12 @@ namespace signorini::test
 template <int dim>
 using Positions = std::vector<SpatialVector<dim>>;
 
+/// Which bodies may touch, in scenes without self-contact.
+inline bool different_bodies(unsigned int body, unsigned int other)
+{
+  return body != other;
+}
+
 /// A box of n × n (× n) elements and its material, as seen from outside; every side of an element is one
 /// quadrilateral or two triangles.
 template <int dim>

@@ -43,7 +43,7 @@ class FrictionHold : public testing::Test
 using Dimensions = testing::Types<std::integral_constant<int, 2>, std::integral_constant<int, 3>>;
 TYPED_TEST_SUITE(FrictionHold, Dimensions);
 
-constexpr double way = .1; // far beyond what sticks
+constexpr double far_way = .1; // far beyond what sticks
 
 /// Of an iteration that leaps from one direction of sliding to the other.
 TYPED_TEST(FrictionHold, PointsThatTurnRoundStickUntilTheNextHold)
@@ -54,17 +54,17 @@ TYPED_TEST(FrictionHold, PointsThatTurnRoundStickUntilTheNextHold)
   const auto expect = [&](double force)
   { EXPECT_LT((held.rubbing.resultant() - force * held.along).norm(), 1e-12 * std::abs(force)); };
   const double limit = held.coefficient * held.rubbing.total_pressure();
-  held.move(way * held.along);
+  held.move(far_way * held.along);
   friction.hold();
-  held.move(way * held.along);
+  held.move(far_way * held.along);
   expect(-limit); // it slides on
-  held.move(-way * held.along);
+  held.move(-far_way * held.along);
   expect(limit);
   friction.hold();
-  held.move(-way * held.along);
-  expect(held.stiffness * way);
+  held.move(-far_way * held.along);
+  expect(held.stiffness * far_way);
   friction.hold();
-  held.move(-way * held.along);
+  held.move(-far_way * held.along);
   expect(limit);
 }
 
@@ -74,13 +74,13 @@ TYPED_TEST(FrictionHold, EndsWithTheRelease)
   HeldOnPlane<dim> held;
   for (const double side : {1., -1.})
   {
-    held.move(side * way * held.along);
+    held.move(side * far_way * held.along);
     held.rubbing.friction.hold();
   }
   held.rubbing.friction.release();
-  held.move(-way * held.along);
+  held.move(-far_way * held.along);
   EXPECT_NEAR(held.rubbing.resultant().norm(), held.coefficient * held.rubbing.total_pressure(),
-              1e-12 * held.stiffness * way);
+              1e-12 * held.stiffness * far_way);
 }
 
 /// Of points that stick, that slide, that are about to, and that are made to stick; that touched before, and
@@ -89,7 +89,7 @@ TYPED_TEST(FrictionHold, ForcesAreTheGradientOfTheEnergyAtHeldPressures)
 {
   constexpr int dim = TypeParam::value;
   for (const double height : {0., .15})
-    for (const double distance : {1e-3, 1.5e-2, way})
+    for (const double distance : {1e-3, 1.5e-2, far_way})
       for (const bool does_turn_round : {false, true})
       {
         HeldOnPlane<dim> held(height);
@@ -136,10 +136,10 @@ TYPED_TEST(FrictionHold, KeepsThePressures)
 {
   constexpr int dim = TypeParam::value;
   HeldOnPlane<dim> held;
-  held.move(way * held.along);
+  held.move(far_way * held.along);
   held.rubbing.friction.hold();
   const double energy = held.rubbing.friction.held_energy(), pressure = held.rubbing.total_pressure();
-  held.move(way * held.along - .01 * held.normal);
+  held.move(far_way * held.along - .01 * held.normal);
   EXPECT_GT(held.rubbing.total_pressure(), 1.1 * pressure);
   EXPECT_NEAR(held.rubbing.friction.held_energy(), energy, 1e-10 * energy);
 }

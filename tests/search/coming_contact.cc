@@ -17,11 +17,6 @@ namespace
 {
 constexpr double margin = .3;
 
-bool every_pair(unsigned int body, unsigned int other)
-{
-  return body != other;
-}
-
 /// Boxes that fly in all directions, each turning and trembling a little.
 template <int dim>
 struct FlyingBoxes
@@ -85,7 +80,7 @@ unsigned int compare_with_all_pairs(unsigned int degree, unsigned int seed)
   const auto &facets = boxes.surface.facets;
   const std::vector<double> margins(facets.size(), margin);
   const std::vector<unsigned int> found =
-      find_coming_contact<dim>(boxes.surface, boxes.motion, margins, every_pair);
+      find_coming_contact<dim>(boxes.surface, boxes.motion, margins, different_bodies);
   EXPECT_TRUE(std::is_sorted(found.begin(), found.end()));
   constexpr double largest_relative_speed = 2. * (8. * 1.8 + .4) * 1.6;
   unsigned int n_coming = 0;
@@ -151,7 +146,7 @@ TEST(ComingContact, SeesOnlyTheFacesThatMeet)
   FlyingBoxes<3> boxes = make_two_boxes<3>(1.);
   const std::vector<double> margins(boxes.surface.facets.size(), .1);
   const auto find = [&]()
-  { return find_coming_contact<3>(boxes.surface, boxes.motion, margins, every_pair); };
+  { return find_coming_contact<3>(boxes.surface, boxes.motion, margins, different_bodies); };
   EXPECT_TRUE(find().empty());
   for (unsigned int node = 0; node < boxes.surface.n_nodes(); ++node)
     boxes.motion.velocities[node][2] = boxes.motion.positions[node][2] > 1.5 ? -.95 : 0.;

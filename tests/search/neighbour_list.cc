@@ -17,11 +17,6 @@ namespace
 constexpr double skin = .1;
 constexpr double reach = .15;
 
-bool every_pair(unsigned int body, unsigned int other)
-{
-  return body != other;
-}
-
 /// Boxes of random places and sizes, some overlapping, some far; in 3-D every other one of triangles.
 template <int dim>
 ContactSurface<dim> make_scene(unsigned int n_boxes, unsigned int degree, unsigned int seed)
@@ -140,7 +135,8 @@ TYPED_TEST(NeighbourListTest, HoldsAllTouchingPairsWithinTheSkin)
     {
       const auto surface = make_scene<dim>(7, degree, seed);
       const auto built_at = deform(surface, seed);
-      NeighbourList<dim> list(surface, std::vector<double>(surface.facets.size(), reach), skin, every_pair);
+      NeighbourList<dim> list(surface, std::vector<double>(surface.facets.size(), reach), skin,
+                              different_bodies);
       list.rebuild(built_at);
       const FacetPairs found = collect_pairs(list);
       const FacetPairs needed = find_touching_pairs(surface, built_at);
@@ -203,7 +199,7 @@ TYPED_TEST(NeighbourListTest, IsStaleBeyondHalfTheSkinOnly)
 {
   constexpr int dim = TypeParam::value;
   const auto surface = make_scene<dim>(4, 1, 1);
-  NeighbourList<dim> list(surface, std::vector<double>(surface.facets.size(), reach), skin, every_pair);
+  NeighbourList<dim> list(surface, std::vector<double>(surface.facets.size(), reach), skin, different_bodies);
   EXPECT_TRUE(list.is_stale(surface.reference_positions));
   list.rebuild(surface.reference_positions);
   EXPECT_EQ(list.n_rebuilds(), 1u);
@@ -233,7 +229,8 @@ TYPED_TEST(NeighbourListTest, PairsGrowWithTheNumberOfFacetsOnly)
         builder.add(box);
       }
     const auto &surface = builder.surface;
-    NeighbourList<dim> list(surface, std::vector<double>(surface.facets.size(), reach), skin, every_pair);
+    NeighbourList<dim> list(surface, std::vector<double>(surface.facets.size(), reach), skin,
+                            different_bodies);
     list.rebuild(surface.reference_positions);
     return static_cast<double>(collect_pairs(list).size()) / surface.n_bodies;
   };
@@ -246,8 +243,8 @@ TYPED_TEST(NeighbourListTest, PairsGrowWithTheNumberOfFacetsOnly)
 TEST(NeighbourList, RejectsWhatDoesNotFit)
 {
   const auto surface = make_scene<2>(2, 1, 1);
-  EXPECT_THROW(NeighbourList<2>(surface, {1.}, skin, every_pair), std::invalid_argument);
+  EXPECT_THROW(NeighbourList<2>(surface, {1.}, skin, different_bodies), std::invalid_argument);
   const std::vector<double> all_reach(surface.facets.size(), reach);
-  EXPECT_THROW(NeighbourList<2>(surface, all_reach, 0., every_pair), std::invalid_argument);
+  EXPECT_THROW(NeighbourList<2>(surface, all_reach, 0., different_bodies), std::invalid_argument);
 }
 } // namespace

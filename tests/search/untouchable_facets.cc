@@ -17,9 +17,9 @@ using namespace signorini::test;
 namespace
 {
 constexpr double pi = 3.14159265358979323846;
-constexpr double reach = 1., skin = .5; // of cells of size 1
+constexpr double voxel_reach = 1., voxel_skin = .5; // of cells of size 1
 
-bool every_pair(unsigned int, unsigned int)
+bool any_pair(unsigned int, unsigned int)
 {
   return true;
 }
@@ -29,8 +29,8 @@ using FacetPairs = std::set<std::pair<unsigned int, unsigned int>>;
 template <int dim>
 FacetPairs find_pairs(const VoxelSurface<dim> &voxels, const Positions<dim> &x)
 {
-  NeighbourList<dim> list(voxels.surface, std::vector<double>(voxels.surface.facets.size(), reach), skin,
-                          every_pair);
+  NeighbourList<dim> list(voxels.surface, std::vector<double>(voxels.surface.facets.size(), voxel_reach),
+                          voxel_skin, any_pair);
   list.rebuild(x);
   FacetPairs pairs;
   for (const FacetNeighbours &found : list.neighbours())
@@ -138,7 +138,7 @@ bool may_touch(const VoxelSurface<dim> &c, unsigned int f, unsigned int t)
   SpatialVector<dim> apart = (c.centres[t] - c.centres[f]).cwiseAbs();
   for (const auto &normal : {c.normals[f], c.normals[t]})
     apart -= .5 * (SpatialVector<dim>::Ones() - normal.cwiseAbs());
-  return apart.cwiseMax(0.).norm() > 2. * reach + skin;
+  return apart.cwiseMax(0.).norm() > 2. * voxel_reach + voxel_skin;
 }
 
 TYPED_TEST(UntouchableFacets, AreTakenFromAllNearOnes)
@@ -162,7 +162,7 @@ TYPED_TEST(UntouchableFacets, AreTakenFromAllNearOnes)
     for (unsigned int t = 0; t < c.surface.facets.size(); ++t)
       if (c.surface.facets[f].owned && may_touch(c, f, t) &&
           make_facet_box(c.surface.facets[f], x).exteriorDistance(make_facet_box(c.surface.facets[t], x)) <=
-              reach + skin)
+              voxel_reach + voxel_skin)
         expected.emplace(f, t);
   EXPECT_GT(expected.size(), 50u);
   EXPECT_EQ(find_pairs<dim>(c, x), expected);
@@ -198,11 +198,11 @@ TYPED_TEST(UntouchableFacets, AreNotComing)
   const std::vector<double> margins(voxels.surface.facets.size(), .6);
   const auto find = [&](const auto &is_allowed)
   { return find_coming_contact<dim>(voxels.surface, motion, margins, is_allowed); };
-  EXPECT_TRUE(find(every_pair).empty());
+  EXPECT_TRUE(find(any_pair).empty());
   for (std::size_t i = 0; i < motion.positions.size(); ++i)
     if (motion.positions[i][dim - 1] > 2. && motion.positions[i][0] > 4.5)
       motion.velocities[i][dim - 1] = -3.5;
-  const std::vector<unsigned int> found = find(every_pair);
+  const std::vector<unsigned int> found = find(any_pair);
   for (const unsigned int f : found)
     EXPECT_GT(voxels.centres[f][0], 3.);
   unsigned int n_inner = 0;

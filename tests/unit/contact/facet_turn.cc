@@ -19,8 +19,8 @@ using Dimensions = ::testing::Types<std::integral_constant<int, 2>, std::integra
 TYPED_TEST_SUITE(FacetTurnTest, Dimensions);
 
 template <int dim>
-FacetNodes<dim> moved(FacetNodes<dim> nodes, const SpatialTensor<dim> &rotation,
-                      const SpatialVector<dim> &shift)
+FacetNodes<dim> moved_facet(FacetNodes<dim> nodes, const SpatialTensor<dim> &rotation,
+                            const SpatialVector<dim> &shift)
 {
   for (unsigned int a = 0; a < nodes.n_nodes(); ++a)
     nodes.position[a] = rotation * nodes.position[a] + shift;
@@ -37,7 +37,8 @@ TYPED_TEST(FacetTurnTest, RigidMotionGivesItsOwnRotation)
       const FacetNodes<dim> nodes = testing::make_warped_facet(element, .1, dice);
       const LocalPoint<dim> xi = testing::make_local_point(element, .1, dice);
       const SpatialTensor<dim> rotation = dice.rotation<dim>();
-      const FacetBasis<dim> before(nodes, xi), now(moved<dim>(nodes, rotation, dice.point<dim>(-2., 2.)), xi);
+      const FacetBasis<dim> before(nodes, xi),
+          now(moved_facet<dim>(nodes, rotation, dice.point<dim>(-2., 2.)), xi);
       EXPECT_LT((find_turn(before, now) - rotation).norm(), 1e-12);
     }
 }

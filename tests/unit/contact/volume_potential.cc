@@ -234,7 +234,8 @@ TYPED_TEST(VolumePotentialTest, RowSumBoundHoldsUntilTheNextSearch)
       {
         // Both bodies towards each other, not far enough for another search.
         const double way = random.number(.001, .002);
-        Positions<dim> x = shifted<dim>(volume.reference_positions, random.field(volume.n_nodes(), .001), 1.);
+        Positions<dim> x =
+            test::shifted<dim>(volume.reference_positions, random.field(volume.n_nodes(), .001), 1.);
         for (unsigned int node = 0; node < volume.n_nodes(); ++node)
           x[node][dim - 1] += node < n_lower_nodes<dim> ? way : -way;
         ASSERT_FALSE(potential.is_stale(x));

@@ -12,7 +12,7 @@
 
 using namespace signorini;
 
-namespace
+namespace j2_plastic_test
 {
 constexpr double mu = 3., kappa = 7., first_yield = .3, hardening = .5;
 const PlasticState untouched;
@@ -369,4 +369,4 @@ TEST(PlasticityInSpace, PerfectlyPlasticShearComesToStay)
   EXPECT_NEAR(coarse, 0., 2e-4 * yield_in_shear);
   EXPECT_NEAR(fine, .25 * coarse, .02 * std::abs(coarse));
 }
-} // namespace
+} // namespace j2_plastic_test

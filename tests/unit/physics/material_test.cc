@@ -10,7 +10,7 @@
 
 using namespace signorini;
 
-namespace
+namespace material_test
 {
 constexpr double mu = 3., kappa = 7., lambda = kappa - 2. / 3. * mu;
 
@@ -226,4 +226,4 @@ TEST(NeoHookeanLaw, InvertedElementIsNotANumber)
   law.shape(H, Order::first, response);
   EXPECT_TRUE(std::isnan(response.energy));
 }
-} // namespace
+} // namespace material_test

@@ -6,7 +6,7 @@
 using namespace signorini;
 using namespace signorini::test;
 
-namespace
+namespace plastic_force_test
 {
 BodyParameters plastic(BodyParameters body, double yield_stress)
 {
@@ -138,4 +138,4 @@ TEST(ElasticForces, HaveNothingToRemember)
   EXPECT_EQ(built.forces.elasticity->commit(), 0.);
   EXPECT_EQ(built.forces.elasticity->energy(), energy);
 }
-} // namespace
+} // namespace plastic_force_test

@@ -14,7 +14,7 @@
 
 namespace signorini
 {
-namespace
+namespace study_row_test
 {
 using Factor = StudyParameters::Factor;
 
@@ -139,5 +139,5 @@ TEST(ParetoFront, HasWhatNoOtherRunBeats)
   EXPECT_EQ(find_pareto_front(rows, {"q"}), (std::vector<std::size_t>{1, 3, 0}));
   EXPECT_TRUE(find_pareto_front({}, {"q"}).empty());
 }
-} // namespace
+} // namespace study_row_test
 } // namespace signorini

@@ -2,21 +2,18 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Run `signorini FILE MORE` and compare its exit code and message with the comments at the head of the file.
 
-MORE are the program's options that hold for all files of a folder, such as --validate.
-Comments: `# exit: CODE`, any number of `# message: FRAGMENT` (all must appear in the message), and
-`# options: ...` (further options, as in a shell).
+Comments: `# exit: CODE` and any number of `# message: FRAGMENT` (all must appear in the message).
 """
 import re
-import shlex
 import subprocess
 import sys
 
 
 def read_expectation(file):
-    expectation = {"exit": [], "message": [], "options": []}
+    expectation = {"exit": [], "message": []}
     with open(file, encoding="utf-8", errors="replace") as lines:
         for line in lines:
-            found = re.match(r"# (exit|message|options): (.*)", line.rstrip("\r\n"))
+            found = re.match(r"# (exit|message): (.*)", line.rstrip("\r\n"))
             if found:
                 expectation[found[1]].append(found[2])
     return expectation
@@ -25,8 +22,7 @@ def read_expectation(file):
 def main():
     program, file, *more = sys.argv[1:]
     expectation = read_expectation(file)
-    options = [word for line in expectation["options"] for word in shlex.split(line)]
-    run = subprocess.run([program, *more, *options, file], capture_output=True, text=True, check=False)
+    run = subprocess.run([program, *more, file], capture_output=True, text=True, check=False)
     message = run.stdout + run.stderr
     faults = [f"the message lacks '{text}'" for text in expectation["message"] if text not in message]
     if [str(run.returncode)] != expectation["exit"]:
