@@ -5,12 +5,14 @@
 #include "signorini/discretization/scene_mesh.h"
 
 #include <deal.II/base/quadrature_lib.h>
+#include <deal.II/base/utilities.h>
 #include <deal.II/fe/fe_simplex_p.h>
 #include <deal.II/grid/grid_tools.h>
 #include <deal.II/grid/tria_description.h>
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace signorini
 {
@@ -24,6 +26,29 @@ auto &face_list(dealii::SubCellData &faces)
     return faces.boundary_lines;
   else
     return faces.boundary_quads;
+}
+
+/// The cells in the order of their middles along Hilbert's curve: neighbours stand near each other in memory,
+/// whatever the order of the file.
+template <int dim>
+std::vector<std::array<unsigned int, 4>> sort_along_curve(const SimplexMesh &mesh)
+{
+  std::vector<dealii::Point<dim>> middles;
+  for (const auto &vertices : mesh.cells)
+  {
+    middles.emplace_back();
+    for (unsigned int v = 0; v <= dim; ++v)
+      middles.back() += to_point<dim>(mesh.vertices[vertices[v]]) / (dim + 1.);
+  }
+  const auto places = dealii::Utilities::inverse_Hilbert_space_filling_curve<dim>(middles, 20);
+  std::vector<unsigned int> order(mesh.cells.size());
+  std::iota(order.begin(), order.end(), 0u);
+  std::stable_sort(order.begin(), order.end(),
+                   [&](unsigned int one, unsigned int other) { return places[one] < places[other]; });
+  std::vector<std::array<unsigned int, 4>> sorted;
+  for (const unsigned int cell : order)
+    sorted.push_back(mesh.cells[cell]);
+  return sorted;
 }
 } // namespace
 
@@ -41,7 +66,7 @@ void TetrahedralPart<dim>::CoarseMesh::append(const PlacedSimplexMesh &placed)
   const unsigned int first_vertex = vertices.size();
   for (const Triple &vertex : mesh.vertices)
     vertices.push_back(to_point<dim>(vertex));
-  for (const auto &vertices_of_cell : mesh.cells)
+  for (const auto &vertices_of_cell : sort_along_curve<dim>(mesh))
   {
     dealii::CellData<dim> cell(dim + 1);
     for (unsigned int v = 0; v <= dim; ++v)
