@@ -116,13 +116,15 @@ std::vector<double> ContactPotential<dim>::facet_errors() const
 {
   // A multiplier that is larger than the pressure is an error as well, so all points count.
   std::vector<double> errors(surface.facets.size(), 0.);
+  if (!is_linear())
+    body_feet.find_within(0., evaluated_positions);
   const auto add = [&errors](const auto &list, const auto &feet)
   {
     for (std::size_t i = 0; i < feet.size(); ++i)
       errors[list[i].facet] +=
           list[i].area * list[i].stiffness * std::pow(std::max(feet[i].depth, -list[i].offset), 2);
   };
-  add(pairs.body_pairs(), body_feet);
+  add(pairs.body_pairs(), body_feet.all());
   add(pairs.obstacle_pairs(), obstacle_feet);
   return errors;
 }

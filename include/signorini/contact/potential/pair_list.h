@@ -54,8 +54,11 @@ public:
   const PotentialSettings &settings() const { return settings_; }
   double skin() const { return skin_; } ///< [m]
 
-  /// A bound of how much the distance between any point and any surface changed since the last renewal [m].
-  double bound_motion(const Positions &positions) const;
+  /// By how much a point of a facet may move at most where no node moves by more than one.
+  double largest_motion_factor() const { return largest_motion_factor_; }
+
+  /// Of all pairs of bodies [m].
+  double largest_offset() const;
 
   /// Changes α, and with it k_A and the damping of all pairs.
   void set_penalty_factor(double penalty_factor);
@@ -79,7 +82,7 @@ public:
   {
     Positions shifts = shifts_of_obstacles;
     archive &settings_.penalty_factor &shifts &shifts_at_search &neighbour_list;
-    archive &body_pairs_ &obstacle_pairs_ &n_renewals_ &positions_at_renewal;
+    archive &body_pairs_ &obstacle_pairs_ &n_renewals_;
     if (Archive::is_loading::value)
       move_obstacles(shifts);
   }
@@ -125,7 +128,7 @@ private:
   PotentialSettings settings_;
   double skin_;
   std::vector<double> reach_;
-  double largest_motion_factor = 1.;
+  double largest_motion_factor_ = 1.;
   std::array<FacetPoints, 4> gauss_points; ///< of the kinds of facet that there are, at their index()
   NeighbourList<dim> neighbour_list;
 
@@ -133,7 +136,6 @@ private:
   Pairs body_pairs_;
   Pairs obstacle_pairs_;
   unsigned int n_renewals_ = 0;
-  Positions positions_at_renewal;
 };
 
 /// x(ξ) = Σ_a shape_a x_a on a facet.
