@@ -41,10 +41,10 @@ void declare_placement(Declarations &declarations, const DeclarationScope &scope
 
 void declare_copies(Declarations &declarations, const DeclarationScope &scope, const std::string &path)
 {
-  SubsectionDeclaration copies(
-      declarations, path,
-      "The body many times over, on a lattice that its own place is the first corner of; the copies are named "
-      "NAME.1, NAME.2 and so on, the first component running first.");
+  SubsectionDeclaration copies(declarations, path,
+                               "The body many times over, on a lattice that its own place is the first "
+                               "corner of; the copies are named "
+                               "NAME.1, NAME.2 and so on, the first component running first.");
   copies.add("Number", list_of(integer_from(1, 1000000), scope.dimension, scope.dimension),
              scope.components("1, 1, 1"), "", "In each direction.");
   copies.add_required("Spacing", scope.vector(), "m", "From one to the next, in each direction.");

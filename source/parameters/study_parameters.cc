@@ -48,7 +48,8 @@ const std::vector<FactorEntry> &factor_entries()
       {Factor::step_factor, "Step factors", list_of(number_above(0.), 1, longest_list), "Explicit",
        "What 'Bulk step factor' and 'Contact step factor' of 'Explicit' are multiplied by."},
       {Factor::copies, "Copies", any_text(), "",
-       "Values of 'Number' of the 'Copies' of every body that has them, with spaces, separated by commas, such "
+       "Values of 'Number' of the 'Copies' of every body that has them, with spaces, separated by commas, "
+       "such "
        "as 10 10 1, 10 10 10."}};
   return entries;
 }
@@ -72,7 +73,8 @@ bool is_same(const std::string &one, const std::string &other)
 bool has_copies(const ParameterText &text)
 {
   const std::vector<std::string> bodies = split(text.value("", "Bodies"), ',');
-  return std::any_of(bodies.begin(), bodies.end(), [&text](const std::string &body)
+  return std::any_of(bodies.begin(), bodies.end(),
+                     [&text](const std::string &body)
                      { return text.find_subsection("Body " + body + "/Copies") != nullptr; });
 }
 

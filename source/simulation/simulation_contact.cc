@@ -221,8 +221,7 @@ void Simulation<dim>::check_obstacle_sizes() const
       if (unseen_depth(obstacle->room(), facet) < 0.25 * facet.room)
         is_seen[facet.body] = true;
     for (unsigned int body = 0; body < scene.n_bodies(); ++body)
-      if (!is_seen[body] &&
-          !is_pair_excluded(*parameters.contact, scene.body_names[body], obstacle->name()))
+      if (!is_seen[body] && !is_pair_excluded(*parameters.contact, scene.body_names[body], obstacle->name()))
         throw InputError(
             Complaint(
                 fmt::format("obstacle '{}' is too small for the faces of body '{}': it could slip between "

@@ -2,8 +2,8 @@
 #include "signorini/simulation/size_estimate.h"
 
 #include "signorini/base/exceptions.h"
-#include "signorini/parameters/body_parameters.h"
 #include "signorini/discretization/generated_simplex_mesh.h"
+#include "signorini/parameters/body_parameters.h"
 
 #include <deal.II/base/mpi.h>
 

@@ -55,7 +55,8 @@ void find_inner_feet(InnerFeetBatch &batch)
                  low_00 = 2. * q20[i] - drift_00, low_11 = 2. * q02[i] - drift_11,
                  high_01 = std::abs(q11[i]) + drift_01, low = low_00 * low_11 - high_01 * high_01;
     const bool is_convex = (low_00 > 0.) & (low_11 > 0.) & (low > 0.);
-    const double sum = drift_00 * low_11 + drift_11 * low_00 + 2. * drift_01 * std::sqrt(std::abs(low_00 * low_11));
+    const double sum =
+        drift_00 * low_11 + drift_11 * low_00 + 2. * drift_01 * std::sqrt(std::abs(low_00 * low_11));
     contraction[i] = is_convex ? 4. * sum / low : 1e300;
     last_step[i] = 1e300;
   }
@@ -66,8 +67,10 @@ void find_inner_feet(InnerFeetBatch &batch)
     for (int i = 0; i < size; ++i)
     {
       const double s0 = batch.s[0][i], s1 = batch.s[1][i];
-      const double g0 = q10[i] + 2. * q20[i] * s0 + s1 * (q11[i] + 2. * q21[i] * s0 + s1 * (q12[i] + 2. * q22[i] * s0)),
-                   g1 = q01[i] + 2. * q02[i] * s1 + s0 * (q11[i] + 2. * q12[i] * s1 + s0 * (q21[i] + 2. * q22[i] * s1)),
+      const double g0 = q10[i] + 2. * q20[i] * s0 +
+                        s1 * (q11[i] + 2. * q21[i] * s0 + s1 * (q12[i] + 2. * q22[i] * s0)),
+                   g1 = q01[i] + 2. * q02[i] * s1 +
+                        s0 * (q11[i] + 2. * q12[i] * s1 + s0 * (q21[i] + 2. * q22[i] * s1)),
                    h00 = 2. * (q20[i] + s1 * (q21[i] + s1 * q22[i])),
                    h11 = 2. * (q02[i] + s0 * (q12[i] + s0 * q22[i])),
                    h01 = q11[i] + 2. * (q21[i] * s0 + q12[i] * s1) + 4. * q22[i] * s0 * s1;

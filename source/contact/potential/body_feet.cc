@@ -37,6 +37,24 @@ SpatialVector<3> linear_normal(const Facet<3> &facet, const LocalPoint<3> &xi,
   }
   return first.cross(second);
 }
+
+/// Whether a plane parts the facet from all points within a distance of `x`: the one across the way to the
+/// middle of its corners. A box with sides askew to the facets leaves no such room.
+template <int dim>
+bool is_beyond(const Facet<dim> &facet, const SpatialVector<dim> &x, double distance,
+               const std::vector<SpatialVector<dim>> &positions)
+{
+  if (facet.degree > 1)
+    return false;
+  SpatialVector<dim> direction = -double(facet.n_nodes()) * x;
+  for (unsigned int a = 0; a < facet.n_nodes(); ++a)
+    direction += positions[facet.nodes[a]];
+  const double least = distance * direction.norm();
+  for (unsigned int a = 0; a < facet.n_nodes(); ++a)
+    if (!((positions[facet.nodes[a]] - x).dot(direction) > least))
+      return false;
+  return true;
+}
 } // namespace
 
 template <int dim>
@@ -138,9 +156,8 @@ void BodyFeet<dim>::find_inner_feet_of_chunk(const Positions &positions)
         {
           for (unsigned int a = 0; a < 3; ++a)
             batch.node[a][d][i] = positions[target.nodes[a]][d];
-          batch.node[3][d][i] = is_triangle
-                                    ? batch.node[1][d][i] + batch.node[2][d][i] - batch.node[0][d][i]
-                                    : positions[target.nodes[3]][d];
+          batch.node[3][d][i] = is_triangle ? batch.node[1][d][i] + batch.node[2][d][i] - batch.node[0][d][i]
+                                            : positions[target.nodes[3]][d];
           batch.point[d][i] = foot.position[d];
         }
         batch.rim[i] = is_triangle ? 0. : 2.;
@@ -226,8 +243,12 @@ void BodyFeet<dim>::reject_where_others_are_near(unsigned int begin, unsigned in
       if (!chunk.is_found[k] || foot.facet == candidate)
         continue;
       const double distance = std::abs(foot.depth) + slack;
-      chunk.is_found[k] = (box.low - foot.position).cwiseMax(foot.position - box.high).cwiseMax(0.).squaredNorm() >
-                          distance * distance;
+      chunk.is_found[k] =
+          (box.low - foot.position).cwiseMax(foot.position - box.high).cwiseMax(0.).squaredNorm() >
+              distance * distance ||
+          is_beyond(surface.facets[candidate], foot.position, distance, positions) ||
+          find_closest_point(gather_nodes(surface.facets[candidate], positions), foot.position).distance >
+              distance;
     }
   }
   for (unsigned int k = begin; k < end; ++k)

@@ -11,6 +11,19 @@
 
 namespace signorini::contact
 {
+namespace
+{
+/// Adds a force to the nodes of a facet.
+template <int dim>
+void spread(const SpatialVector<dim> &force, const Facet<dim> &facet,
+            const std::array<double, Facet<dim>::max_n_nodes> &shape, std::vector<SpatialVector<dim>> &forces)
+{
+  const unsigned int n_nodes = facet.n_nodes();
+  for (unsigned int a = 0; a < n_nodes; ++a)
+    forces[facet.nodes[a]] += shape[a] * force;
+}
+} // namespace
+
 template <int dim>
 ContactPotential<dim>::ContactPotential(const ContactSurface<dim> &contact_surface, Obstacles obstacles,
                                         PotentialSettings settings)
@@ -132,8 +145,7 @@ template <int dim>
 double ContactPotential<dim>::energy() const
 {
   double sum = 0.;
-  for_each_overlap_above(0.,
-                         [&sum](const NearPair &near)
+  for_each_overlap_above(0., [&sum](const NearPair &near)
                          { sum += .5 * near.pair.area * near.pair.stiffness * std::pow(near.overlap(), 2); });
   return sum;
 }
@@ -145,8 +157,9 @@ void ContactPotential<dim>::add_forces(std::vector<SpatialVector<dim>> &forces) 
                          [&forces](const NearPair &near)
                          {
                            const SpatialVector<dim> force = near.force();
-                           for (unsigned int a = 0; a < near.stencil.n_nodes; ++a)
-                             forces[near.stencil.node[a]] += near.stencil.weight[a] * force;
+                           spread<dim>(force, near.contactor, near.pair.shape, forces);
+                           if (near.target != nullptr)
+                             spread<dim>(-force, *near.target, near.foot.shape, forces);
                          });
 }
 
@@ -157,12 +170,10 @@ double ContactPotential<dim>::depth_rate(const NearPair &near,
   // In an implicit step only the part of the way on which the point touches counts.
   if (is_linear())
     return (near.foot.depth - std::max(start_depths[near.index], 0.)) / linear_time_step;
-  SpatialVector<dim> gap_rate = SpatialVector<dim>::Zero();
-  for (unsigned int a = 0; a < near.stencil.n_nodes; ++a)
-    gap_rate += near.stencil.weight[a] * velocities[near.stencil.node[a]];
-  if (near.target == nullptr)
-    gap_rate -= places.velocities[near.pair.target];
-  return -near.foot.normal.dot(gap_rate);
+  const SpatialVector<dim> of_target = near.target == nullptr
+                                           ? places.velocities[near.pair.target]
+                                           : interpolate(*near.target, near.foot.shape, velocities);
+  return near.foot.normal.dot(of_target - interpolate(near.contactor, near.pair.shape, velocities));
 }
 
 template <int dim>
@@ -186,8 +197,9 @@ double ContactPotential<dim>::add_damping_forces(const std::vector<SpatialVector
                            const double pressure = damping_pressure(near, rate);
                            power += near.pair.area * pressure * rate;
                            const SpatialVector<dim> force = near.pair.area * pressure * near.foot.normal;
-                           for (unsigned int a = 0; a < near.stencil.n_nodes; ++a)
-                             forces[near.stencil.node[a]] += near.stencil.weight[a] * force;
+                           spread<dim>(force, near.contactor, near.pair.shape, forces);
+                           if (near.target != nullptr)
+                             spread<dim>(-force, *near.target, near.foot.shape, forces);
                          });
   return power;
 }

@@ -17,9 +17,9 @@ struct InnerFeetBatch
   Numbers s[2];       ///< 2ξ − 1 of a place near the foot; afterwards of the foot
 
   // Found.
-  Numbers normal[3];    ///< outward unit normal at the foot
-  Numbers depth;        ///< (y − x)·n [m]
-  Numbers is_inner;     ///< 1 where this is the closest point of the facet and lies off its sides, else 0
+  Numbers normal[3]; ///< outward unit normal at the foot
+  Numbers depth;     ///< (y − x)·n [m]
+  Numbers is_inner;  ///< 1 where this is the closest point of the facet and lies off its sides, else 0
 };
 
 /// Finds the feet of points on the insides of facets: by Newton's method for the least distance, as

@@ -74,7 +74,8 @@ private:
   void find_awake(double gap);
   void find_chunk(const Positions &positions);
   void find_inner_feet_of_chunk(const Positions &positions);
-  bool faces_target(const PairFoot<dim> &foot, const ContactPair<dim> &pair, const Positions &positions) const;
+  bool faces_target(const PairFoot<dim> &foot, const ContactPair<dim> &pair,
+                    const Positions &positions) const;
   void reject_where_others_are_near(unsigned int begin, unsigned int end, const Positions &positions);
   void find_by_search(unsigned int pair, const Positions &positions);
   void note_found(unsigned int pair, double distance);

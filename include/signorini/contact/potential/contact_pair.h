@@ -13,14 +13,14 @@ namespace signorini::contact
 template <int dim>
 struct ContactPair
 {
-  unsigned int facet = 0;                              ///< the contactor
-  unsigned int target = 0;                             ///< index of the body or of the obstacle
-  unsigned int neighbours = 0;                         ///< bodies only: index into the neighbour list
-  double area = 0.;      ///< A_q: undeformed area the point counts with [m²; m in 2-D]
-  double stiffness = 0.; ///< k_A [Pa/m]
-  double offset = 0.;    ///< λ/k_A of the point's multiplier, added to its depth [m]
-  double damping = 0.;   ///< 2ξ√(k_A m_A) [Pa s/m]
-  LocalPoint<dim> xi;    ///< the point on the contactor
+  unsigned int facet = 0;      ///< the contactor
+  unsigned int target = 0;     ///< index of the body or of the obstacle
+  unsigned int neighbours = 0; ///< bodies only: index into the neighbour list
+  double area = 0.;            ///< A_q: undeformed area the point counts with [m²; m in 2-D]
+  double stiffness = 0.;       ///< k_A [Pa/m]
+  double offset = 0.;          ///< λ/k_A of the point's multiplier, added to its depth [m]
+  double damping = 0.;         ///< 2ξ√(k_A m_A) [Pa s/m]
+  LocalPoint<dim> xi;          ///< the point on the contactor
   std::array<double, Facet<dim>::max_n_nodes> shape{}; ///< the contactor's shape functions there
 
   template <typename Archive>
@@ -71,6 +71,8 @@ template <int dim>
 struct PairStencil
 {
   static constexpr unsigned int max_n_nodes = 2 * Facet<dim>::max_n_nodes;
+
+  PairStencil() {} // leaves the arrays as they are: to clear them costs more than to use them
 
   unsigned int n_nodes = 0;
   std::array<unsigned int, max_n_nodes> node;

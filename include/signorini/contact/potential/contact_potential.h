@@ -188,8 +188,9 @@ public:
       const PairFoot<dim> &foot = (is_of_bodies ? feet : obstacle_feet)[i];
       if (!(foot.depth + pair.offset > least))
         return;
-      NearPair near{pair,  foot, surface.facets[pair.facet], is_of_bodies ? &surface.facets[foot.facet] : nullptr,
-                    index, {}};
+      NearPair near{
+          pair,  foot, surface.facets[pair.facet], is_of_bodies ? &surface.facets[foot.facet] : nullptr,
+          index, {}};
       near.stencil.add(near.contactor, pair.shape, 1.);
       if (is_of_bodies)
         near.stencil.add(*near.target, foot.shape, -1.);

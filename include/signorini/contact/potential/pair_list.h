@@ -140,12 +140,13 @@ private:
 
 /// x(ξ) = Σ_a shape_a x_a on a facet.
 template <int dim>
-SpatialVector<dim> interpolate(const Facet<dim> &facet,
-                               const std::array<double, Facet<dim>::max_n_nodes> &shape,
-                               const std::vector<SpatialVector<dim>> &nodal_values)
+inline SpatialVector<dim> interpolate(const Facet<dim> &facet,
+                                      const std::array<double, Facet<dim>::max_n_nodes> &shape,
+                                      const std::vector<SpatialVector<dim>> &nodal_values)
 {
   SpatialVector<dim> value = SpatialVector<dim>::Zero();
-  for (unsigned int a = 0; a < facet.n_nodes(); ++a)
+  const unsigned int n_nodes = facet.n_nodes();
+  for (unsigned int a = 0; a < n_nodes; ++a)
     value += shape[a] * nodal_values[facet.nodes[a]];
   return value;
 }
