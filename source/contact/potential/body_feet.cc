@@ -58,9 +58,9 @@ bool is_beyond(const Facet<dim> &facet, const SpatialVector<dim> &x, double dist
 } // namespace
 
 template <int dim>
-void BodyFeet<dim>::forget()
+void BodyFeet<dim>::forget(const PairList<dim> &pair_list)
 {
-  feet.resize(pairs.body_pairs().size());
+  feet.resize(pair_list.body_pairs().size());
   sleeps_until.assign(feet.size(), -infinity);
   found_within = -1.;
 }
@@ -69,7 +69,7 @@ template <int dim>
 void BodyFeet<dim>::note_motion(double distance)
 {
   constexpr double round_off = 1e-12;
-  way += 2. * (1. + round_off) * pairs.largest_motion_factor() * distance;
+  way += 2. * (1. + round_off) * distance;
   found_within = -1.;
 }
 
@@ -77,14 +77,14 @@ template <int dim>
 void BodyFeet<dim>::note_found(unsigned int pair, double distance)
 {
   // Facets that are no candidates may be as near as the reach.
-  const double gap = std::min(distance, pairs.reach(pairs.body_pairs()[pair].facet));
+  const double gap = std::min(distance, pairs->reach(pairs->body_pairs()[pair].facet));
   sleeps_until[pair] = way + std::max(0., gap);
 }
 
 template <int dim>
 void BodyFeet<dim>::find_awake(double gap)
 {
-  const double slack = gap + pairs.largest_offset() + 1e-9 * pairs.skin();
+  const double slack = gap + pairs->largest_offset() + 1e-9 * pairs->skin();
   awake.clear();
   for (unsigned int i = 0; i < sleeps_until.size(); ++i)
     if (!(sleeps_until[i] - way > slack))
@@ -92,13 +92,16 @@ void BodyFeet<dim>::find_awake(double gap)
 }
 
 template <int dim>
-void BodyFeet<dim>::find_within(double gap, const Positions &positions)
+void BodyFeet<dim>::find_within(double gap, const Positions &positions,
+                                const ContactSurface<dim> &contact_surface, const PairList<dim> &pair_list)
 {
   if (gap <= found_within)
     return;
+  surface = &contact_surface;
+  pairs = &pair_list;
   found_within = gap;
   ++date;
-  boxes.resize(surface.facets.size());
+  boxes.resize(surface->facets.size());
   find_awake(gap);
   for (std::size_t begin = 0; begin < awake.size(); begin += chunk.n)
   {
@@ -108,7 +111,7 @@ void BodyFeet<dim>::find_within(double gap, const Positions &positions)
   }
   touching_.clear();
   for (const unsigned int i : awake)
-    if (feet[i].depth + pairs.body_pairs()[i].offset > 0.)
+    if (feet[i].depth + pairs->body_pairs()[i].offset > 0.)
       touching_.push_back(i);
 }
 
@@ -118,7 +121,7 @@ void BodyFeet<dim>::find_chunk(const Positions &positions)
   chunk.is_found.fill(false);
   if constexpr (dim == 3)
     find_inner_feet_of_chunk(positions);
-  const auto &list = pairs.body_pairs();
+  const auto &list = pairs->body_pairs();
   for (unsigned int begin = 0, end = 0; begin < chunk.n; begin = end)
   {
     const unsigned int neighbours = list[chunk.pair[begin]].neighbours;
@@ -145,12 +148,12 @@ void BodyFeet<dim>::find_inner_feet_of_chunk(const Positions &positions)
       {
         const unsigned int pair = chunk.pair[first + i];
         PairFoot<dim> &foot = feet[pair];
-        const Facet<dim> &target = surface.facets[foot.facet];
+        const Facet<dim> &target = surface->facets[foot.facet];
         is_tried[i] = sleeps_until[pair] > -infinity && target.degree == 1;
         if (!is_tried[i])
           continue;
-        const ContactPair<dim> &of_foot = pairs.body_pairs()[pair];
-        foot.position = interpolate(surface.facets[of_foot.facet], of_foot.shape, positions);
+        const ContactPair<dim> &of_foot = pairs->body_pairs()[pair];
+        foot.position = interpolate(surface->facets[of_foot.facet], of_foot.shape, positions);
         const bool is_triangle = target.type == FacetType::triangle;
         for (unsigned int d = 0; d < dim; ++d)
         {
@@ -176,12 +179,12 @@ void BodyFeet<dim>::find_inner_feet_of_chunk(const Positions &positions)
           foot.normal[d] = batch.normal[d][i];
         for (unsigned int a = 0; a < 2; ++a)
           foot.xi[a] = .5 * (1. + batch.s[a][i]);
-        const FacetType type = surface.facets[foot.facet].type;
+        const FacetType type = surface->facets[foot.facet].type;
         const auto shape = evaluate_linear_shape(type, foot.xi);
         std::copy_n(shape.begin(), 4, foot.shape.begin());
         // Below the surface, and not clearly against it, it may belong to the other flank of a spike.
-        const ContactPair<dim> &of_foot = pairs.body_pairs()[pair];
-        const Facet<dim> &contactor = surface.facets[of_foot.facet];
+        const ContactPair<dim> &of_foot = pairs->body_pairs()[pair];
+        const Facet<dim> &contactor = surface->facets[of_foot.facet];
         chunk.is_found[first + i] =
             foot.depth <= 0. ||
             (contactor.degree == 1 && linear_normal(contactor, of_foot.xi, positions).dot(foot.normal) < 0.);
@@ -196,7 +199,7 @@ auto BodyFeet<dim>::box_of(unsigned int facet, const Positions &positions) -> co
   DatedBox &box = boxes[facet];
   if (box.date == date)
     return box;
-  const Facet<dim> &of_box = surface.facets[facet];
+  const Facet<dim> &of_box = surface->facets[facet];
   box.low = box.high = positions[of_box.nodes[0]];
   for (unsigned int a = 1; a < of_box.n_nodes(); ++a)
   {
@@ -218,7 +221,7 @@ void BodyFeet<dim>::reject_where_others_are_near(unsigned int begin, unsigned in
                                                  const Positions &positions)
 {
   constexpr double round_off = 1e-9;
-  const double slack = round_off * pairs.skin();
+  const double slack = round_off * pairs->skin();
   SpatialVector<dim> low = SpatialVector<dim>::Constant(infinity), high = -low;
   double farthest = 0.;
   for (unsigned int k = begin; k < end; ++k)
@@ -231,7 +234,7 @@ void BodyFeet<dim>::reject_where_others_are_near(unsigned int begin, unsigned in
     }
   if (low[0] > high[0])
     return;
-  const FacetNeighbours &found = pairs.neighbours()[pairs.body_pairs()[chunk.pair[begin]].neighbours];
+  const FacetNeighbours &found = pairs->neighbours()[pairs->body_pairs()[chunk.pair[begin]].neighbours];
   for (const unsigned int candidate : found.candidates)
   {
     const DatedBox &box = box_of(candidate, positions);
@@ -246,8 +249,8 @@ void BodyFeet<dim>::reject_where_others_are_near(unsigned int begin, unsigned in
       chunk.is_found[k] =
           (box.low - foot.position).cwiseMax(foot.position - box.high).cwiseMax(0.).squaredNorm() >
               distance * distance ||
-          is_beyond(surface.facets[candidate], foot.position, distance, positions) ||
-          find_closest_point(gather_nodes(surface.facets[candidate], positions), foot.position).distance >
+          is_beyond(surface->facets[candidate], foot.position, distance, positions) ||
+          find_closest_point(gather_nodes(surface->facets[candidate], positions), foot.position).distance >
               distance;
     }
   }
@@ -256,7 +259,7 @@ void BodyFeet<dim>::reject_where_others_are_near(unsigned int begin, unsigned in
     {
       PairFoot<dim> &foot = feet[chunk.pair[k]];
       note_found(chunk.pair[k], -foot.depth);
-      if (foot.depth <= -pairs.skin() || foot.depth > pairs.reach(found.facet))
+      if (foot.depth <= -pairs->skin() || foot.depth > pairs->reach(found.facet))
         foot.depth = -infinity;
     }
 }
@@ -264,20 +267,20 @@ void BodyFeet<dim>::reject_where_others_are_near(unsigned int begin, unsigned in
 template <int dim>
 void BodyFeet<dim>::find_by_search(unsigned int i, const Positions &positions)
 {
-  const ContactPair<dim> &pair = pairs.body_pairs()[i];
+  const ContactPair<dim> &pair = pairs->body_pairs()[i];
   PairFoot<dim> &foot = feet[i];
   double cutoff = infinity;
   if (sleeps_until[i] > -infinity)
   {
     // No farther than the place where the foot was last.
-    const SpatialVector<dim> x = interpolate(surface.facets[pair.facet], pair.shape, positions);
-    const FacetShape<dim> shape = evaluate_facet_shape(surface.facets[foot.facet], foot.xi);
-    cutoff = (1. + 1e-6) * (x - interpolate(surface.facets[foot.facet], shape.value, positions)).norm() +
-             1e-9 * pairs.skin();
+    const SpatialVector<dim> x = interpolate(surface->facets[pair.facet], pair.shape, positions);
+    const FacetShape<dim> shape = evaluate_facet_shape(surface->facets[foot.facet], foot.xi);
+    cutoff = (1. + 1e-6) * (x - interpolate(surface->facets[foot.facet], shape.value, positions)).norm() +
+             1e-9 * pairs->skin();
   }
-  foot = find_pair_foot(surface, pairs, pair, positions, cutoff);
+  foot = find_pair_foot(*surface, *pairs, pair, positions, cutoff);
   note_found(i, -foot.depth);
-  if (foot.depth <= -pairs.skin() || foot.depth > pairs.reach(pair.facet))
+  if (foot.depth <= -pairs->skin() || foot.depth > pairs->reach(pair.facet))
     foot.depth = -infinity;
 }
 

@@ -27,8 +27,7 @@ void spread(const SpatialVector<dim> &force, const Facet<dim> &facet,
 template <int dim>
 ContactPotential<dim>::ContactPotential(const ContactSurface<dim> &contact_surface, Obstacles obstacles,
                                         PotentialSettings settings)
-    : surface(contact_surface), pairs(contact_surface, std::move(obstacles), std::move(settings)),
-      body_feet(contact_surface, pairs)
+    : surface(contact_surface), pairs(contact_surface, std::move(obstacles), std::move(settings))
 {
   places.shifts.assign(pairs.obstacles().size(), SpatialVector<dim>::Zero());
   places.velocities = places.shifts;
@@ -59,7 +58,7 @@ double ContactPotential<dim>::update(const Positions &positions)
     old_energy = energy();
   }
   pairs.renew(positions);
-  body_feet.forget();
+  body_feet.forget(pairs);
   is_evaluated = false;
   evaluate(positions);
   return std::exchange(has_pairs, true) ? energy() - old_energy : 0.;
@@ -92,7 +91,7 @@ void ContactPotential<dim>::evaluate(const Positions &positions)
   if (is_evaluated && positions == evaluated_positions)
     return;
   move_to(positions);
-  body_feet.find_within(0., positions);
+  find_feet(0.);
   evaluate_obstacle_pairs();
   is_evaluated = true;
 }
@@ -101,7 +100,7 @@ template <int dim>
 void ContactPotential<dim>::move_to(const Positions &positions)
 {
   if (is_linear() || evaluated_positions.size() != positions.size())
-    body_feet.forget();
+    body_feet.forget(pairs);
   else
   {
     double largest_square = 0.;
@@ -109,7 +108,7 @@ void ContactPotential<dim>::move_to(const Positions &positions)
       if (const double square = (positions[node] - evaluated_positions[node]).squaredNorm();
           !(square <= largest_square))
         largest_square = square;
-    body_feet.note_motion(std::sqrt(largest_square));
+    body_feet.note_motion(pairs.largest_motion_factor() * std::sqrt(largest_square));
   }
   evaluated_positions = positions;
   start_depths.clear();

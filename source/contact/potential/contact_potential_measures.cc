@@ -117,7 +117,7 @@ std::vector<double> ContactPotential<dim>::facet_errors() const
   // A multiplier that is larger than the pressure is an error as well, so all points count.
   std::vector<double> errors(surface.facets.size(), 0.);
   if (!is_linear())
-    body_feet.find_within(0., evaluated_positions);
+    find_feet(0.);
   const auto add = [&errors](const auto &list, const auto &feet)
   {
     for (std::size_t i = 0; i < feet.size(); ++i)

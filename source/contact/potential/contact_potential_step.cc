@@ -77,7 +77,7 @@ void ContactPotential<dim>::find_entries(const Positions &start)
 template <int dim>
 void ContactPotential<dim>::linearize(const Positions &start)
 {
-  find_all_feet();
+  find_feet(std::numeric_limits<double>::max());
   start_depths.assign(body_feet.all().size() + obstacle_feet.size(), 0.);
   is_evaluated = false;
   for (std::size_t i = 0; i < body_feet.all().size(); ++i)

@@ -3,6 +3,7 @@
 
 #include "facet_samples.h"
 #include "signorini/contact/geometry/closest_point.h"
+#include "signorini/contact/geometry/local_domain.h"
 
 #include <gtest/gtest.h>
 

@@ -21,16 +21,10 @@ class BodyFeet
 public:
   using Positions = std::vector<SpatialVector<dim>>;
 
-  /// The arguments must outlive this object.
-  BodyFeet(const ContactSurface<dim> &contact_surface, const PairList<dim> &pair_list)
-      : surface(contact_surface), pairs(pair_list)
-  {
-  }
-
   /// Wakes all points: pairs were made anew, or their feet are not those of the positions.
-  void forget();
+  void forget(const PairList<dim> &pair_list);
 
-  /// The nodes have moved by no more than `distance` each [m].
+  /// No point of a facet has moved by more than `distance` [m].
   void note_motion(double distance);
 
   /// Offsets of pairs have changed.
@@ -39,7 +33,8 @@ public:
   /// Finds all feet of points at `positions` that are less than `gap` ≥ 0 outside of their targets, the
   /// offset of the pair subtracted [m]. Of the others depths may be of earlier positions, but never above
   /// −gap − offset. Depths below −skin are −∞.
-  void find_within(double gap, const Positions &positions);
+  void find_within(double gap, const Positions &positions, const ContactSurface<dim> &contact_surface,
+                   const PairList<dim> &pair_list);
 
   std::vector<PairFoot<dim>> &all() { return feet; } ///< one a pair
   const std::vector<PairFoot<dim>> &all() const { return feet; }
@@ -81,8 +76,8 @@ private:
   void note_found(unsigned int pair, double distance);
   const DatedBox &box_of(unsigned int facet, const Positions &positions);
 
-  const ContactSurface<dim> &surface;
-  const PairList<dim> &pairs;
+  const ContactSurface<dim> *surface = nullptr; ///< of a call
+  const PairList<dim> *pairs = nullptr;         ///< of a call
   std::vector<PairFoot<dim>> feet;
   std::vector<double> sleeps_until; ///< way at which the point may be at its target, one a pair [m]
   double way = 0.; ///< that any point and any facet have gone, together, at most; only ever grows [m]

@@ -43,8 +43,6 @@ public:
   /// sense.
   ContactPotential(const ContactSurface<dim> &contact_surface, Obstacles obstacles,
                    PotentialSettings settings);
-  ContactPotential(const ContactPotential &) = delete;
-  ContactPotential &operator=(const ContactPotential &) = delete;
 
   /// Moves the obstacles, which do not move before the first call. Called again with the time of the present
   /// places it does nothing; update() and evaluate() must follow it at another.
@@ -197,7 +195,7 @@ public:
       visit(near);
     };
     if (!is_linear())
-      body_feet.find_within(std::max(0., -least), evaluated_positions);
+      find_feet(std::max(0., -least));
     if (!is_linear() && least >= 0.)
       for (const unsigned int i : body_feet.touching())
         visit_pair(i);
@@ -231,7 +229,8 @@ private:
 
   /// Lets the feet on bodies be those of other positions.
   void move_to(const Positions &positions);
-  void find_all_feet() { body_feet.find_within(std::numeric_limits<double>::max(), evaluated_positions); }
+  /// Those less than `gap` outside of their targets.
+  void find_feet(double gap) const { body_feet.find_within(gap, evaluated_positions, surface, pairs); }
   void evaluate_obstacle_pairs();
   double depth_rate(const NearPair &near, const std::vector<SpatialVector<dim>> &velocities) const;
   double damping_pressure(const NearPair &near, double depth_rate) const;
