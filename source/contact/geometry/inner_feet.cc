@@ -57,6 +57,7 @@ void find_inner_feet(InnerFeetBatch &batch)
     const bool is_convex = (low_00 > 0.) & (low_11 > 0.) & (low > 0.);
     const double sum =
         drift_00 * low_11 + drift_11 * low_00 + 2. * drift_01 * std::sqrt(std::abs(low_00 * low_11));
+    batch.s[0][i] = batch.s[1][i] = 0.;
     contraction[i] = is_convex ? 4. * sum / low : 1e300;
     last_step[i] = 1e300;
   }
@@ -76,9 +77,11 @@ void find_inner_feet(InnerFeetBatch &batch)
                    h01 = q11[i] + 2. * (q21[i] * s0 + q12[i] * s1) + 4. * q22[i] * s0 * s1;
       const double scale = -1. / (h00 * h11 - h01 * h01), p0 = scale * (h11 * g0 - h01 * g1),
                    p1 = scale * (h00 * g1 - h01 * g0);
-      batch.s[0][i] = s0 + p0;
-      batch.s[1][i] = s1 + p1;
-      last_step[i] = p0 * p0 + p1 * p1;
+      // What is there stays, so that no point depends on the others of the batch.
+      const bool is_there = contraction[i] * last_step[i] < 1e-18;
+      batch.s[0][i] = is_there ? s0 : s0 + p0;
+      batch.s[1][i] = is_there ? s1 : s1 + p1;
+      last_step[i] = is_there ? last_step[i] : p0 * p0 + p1 * p1;
       const double error = contraction[i] < 1e300 ? contraction[i] * last_step[i] : 0.;
       largest_error = error > largest_error ? error : largest_error;
     }

@@ -74,11 +74,14 @@ void BodyFeet<dim>::note_motion(double distance)
 }
 
 template <int dim>
-void BodyFeet<dim>::note_found(unsigned int pair, double distance)
+void BodyFeet<dim>::note_found(unsigned int pair)
 {
   // Facets that are no candidates may be as near as the reach.
-  const double gap = std::min(distance, pairs->reach(pairs->body_pairs()[pair].facet));
-  sleeps_until[pair] = way + std::max(0., gap);
+  const double reach = pairs->reach(pairs->body_pairs()[pair].facet);
+  double &depth = feet[pair].depth;
+  sleeps_until[pair] = way + std::clamp(-depth, 0., reach);
+  if (depth <= -pairs->skin() || depth > reach)
+    depth = -infinity;
 }
 
 template <int dim>
@@ -118,10 +121,13 @@ void BodyFeet<dim>::find_within(double gap, const Positions &positions,
 template <int dim>
 void BodyFeet<dim>::find_chunk(const Positions &positions)
 {
-  chunk.is_found.fill(false);
-  if constexpr (dim == 3)
-    find_inner_feet_of_chunk(positions);
   const auto &list = pairs->body_pairs();
+  Selection is_known{};
+  for (unsigned int k = 0; k < chunk.n; ++k)
+    is_known[k] = sleeps_until[chunk.pair[k]] > -infinity;
+  chunk.is_found = find_inner_feet_of_chunk(is_known, positions);
+  for (unsigned int k = 0; k < chunk.n; ++k)
+    chunk.is_found[k] &= faces_target(chunk.pair[k], positions);
   for (unsigned int begin = 0, end = 0; begin < chunk.n; begin = end)
   {
     const unsigned int neighbours = list[chunk.pair[begin]].neighbours;
@@ -129,68 +135,101 @@ void BodyFeet<dim>::find_chunk(const Positions &positions)
       ++end;
     reject_where_others_are_near(begin, end, positions);
   }
+  Selection is_searched{};
   for (unsigned int k = 0; k < chunk.n; ++k)
     if (!chunk.is_found[k])
+    {
       find_by_search(chunk.pair[k], positions);
+      is_searched[k] = std::isfinite(feet[chunk.pair[k]].depth);
+    }
+  // By the same arithmetic as all others, so that no digit depends on what was known before.
+  find_inner_feet_of_chunk(is_searched, positions);
+  for (unsigned int k = 0; k < chunk.n; ++k)
+    note_found(chunk.pair[k]);
 }
 
 template <int dim>
-void BodyFeet<dim>::find_inner_feet_of_chunk(const Positions &positions)
+auto BodyFeet<dim>::find_inner_feet_of_chunk(const Selection &is_asked, const Positions &positions)
+    -> Selection
 {
+  Selection is_found{};
   if constexpr (dim == 3)
   {
     constexpr unsigned int size = InnerFeetBatch::size;
     InnerFeetBatch batch{};
-    for (unsigned int first = 0; first < chunk.n; first += size)
+    for (unsigned int k = 0; k < chunk.n;)
     {
-      std::array<bool, size> is_tried{};
-      for (unsigned int i = 0; i < size && first + i < chunk.n; ++i)
-      {
-        const unsigned int pair = chunk.pair[first + i];
-        PairFoot<dim> &foot = feet[pair];
-        const Facet<dim> &target = surface->facets[foot.facet];
-        is_tried[i] = sleeps_until[pair] > -infinity && target.degree == 1;
-        if (!is_tried[i])
-          continue;
-        const ContactPair<dim> &of_foot = pairs->body_pairs()[pair];
-        foot.position = interpolate(surface->facets[of_foot.facet], of_foot.shape, positions);
-        const bool is_triangle = target.type == FacetType::triangle;
-        for (unsigned int d = 0; d < dim; ++d)
+      std::array<unsigned int, size> place;
+      unsigned int n = 0;
+      for (; k < chunk.n && n < size; ++k)
+        if (is_asked[k] && surface->facets[feet[chunk.pair[k]].facet].degree == 1)
         {
-          for (unsigned int a = 0; a < 3; ++a)
-            batch.node[a][d][i] = positions[target.nodes[a]][d];
-          batch.node[3][d][i] = is_triangle ? batch.node[1][d][i] + batch.node[2][d][i] - batch.node[0][d][i]
-                                            : positions[target.nodes[3]][d];
-          batch.point[d][i] = foot.position[d];
+          put_into_batch(chunk.pair[k], n, positions, batch);
+          place[n++] = k;
         }
-        batch.rim[i] = is_triangle ? 0. : 2.;
-        for (unsigned int a = 0; a < 2; ++a)
-          batch.s[a][i] = 2. * foot.xi[a] - 1.;
-      }
+      if (n == 0)
+        break;
       find_inner_feet(batch);
-      for (unsigned int i = 0; i < size; ++i)
-      {
-        if (!is_tried[i] || batch.is_inner[i] == 0.)
-          continue;
-        const unsigned int pair = chunk.pair[first + i];
-        PairFoot<dim> &foot = feet[pair];
-        foot.depth = batch.depth[i];
-        for (unsigned int d = 0; d < dim; ++d)
-          foot.normal[d] = batch.normal[d][i];
-        for (unsigned int a = 0; a < 2; ++a)
-          foot.xi[a] = .5 * (1. + batch.s[a][i]);
-        const FacetType type = surface->facets[foot.facet].type;
-        const auto shape = evaluate_linear_shape(type, foot.xi);
-        std::copy_n(shape.begin(), 4, foot.shape.begin());
-        // Below the surface, and not clearly against it, it may belong to the other flank of a spike.
-        const ContactPair<dim> &of_foot = pairs->body_pairs()[pair];
-        const Facet<dim> &contactor = surface->facets[of_foot.facet];
-        chunk.is_found[first + i] =
-            foot.depth <= 0. ||
-            (contactor.degree == 1 && linear_normal(contactor, of_foot.xi, positions).dot(foot.normal) < 0.);
-      }
+      for (unsigned int i = 0; i < n; ++i)
+        if ((is_found[place[i]] = batch.is_inner[i] != 0.))
+          take_from_batch(i, batch, feet[chunk.pair[place[i]]]);
     }
   }
+  return is_found;
+}
+
+template <int dim>
+void BodyFeet<dim>::put_into_batch(unsigned int pair, unsigned int i, const Positions &positions,
+                                   InnerFeetBatch &batch)
+{
+  if constexpr (dim == 3)
+  {
+    const ContactPair<dim> &of_foot = pairs->body_pairs()[pair];
+    PairFoot<dim> &foot = feet[pair];
+    foot.position = interpolate(surface->facets[of_foot.facet], of_foot.shape, positions);
+    const Facet<dim> &target = surface->facets[foot.facet];
+    const bool is_triangle = target.type == FacetType::triangle;
+    for (unsigned int d = 0; d < dim; ++d)
+    {
+      for (unsigned int a = 0; a < 3; ++a)
+        batch.node[a][d][i] = positions[target.nodes[a]][d];
+      batch.node[3][d][i] = is_triangle ? batch.node[1][d][i] + batch.node[2][d][i] - batch.node[0][d][i]
+                                        : positions[target.nodes[3]][d];
+      batch.point[d][i] = foot.position[d];
+    }
+    batch.rim[i] = is_triangle ? 0. : 2.;
+  }
+}
+
+template <int dim>
+void BodyFeet<dim>::take_from_batch(unsigned int i, const InnerFeetBatch &batch, PairFoot<dim> &foot)
+{
+  if constexpr (dim == 3)
+  {
+    foot.depth = batch.depth[i];
+    for (unsigned int d = 0; d < dim; ++d)
+      foot.normal[d] = batch.normal[d][i];
+    for (unsigned int a = 0; a < 2; ++a)
+      foot.xi[a] = .5 * (1. + batch.s[a][i]);
+    const auto shape = evaluate_linear_shape(surface->facets[foot.facet].type, foot.xi);
+    std::copy_n(shape.begin(), 4, foot.shape.begin());
+  }
+}
+
+/// Below the surface, and not clearly against it, a point may belong to the other flank of a spike.
+template <int dim>
+bool BodyFeet<dim>::faces_target(unsigned int pair, const Positions &positions) const
+{
+  const PairFoot<dim> &foot = feet[pair];
+  if (!(foot.depth > 0.))
+    return true;
+  if constexpr (dim == 3)
+  {
+    const ContactPair<dim> &of_foot = pairs->body_pairs()[pair];
+    const Facet<dim> &contactor = surface->facets[of_foot.facet];
+    return contactor.degree == 1 && linear_normal(contactor, of_foot.xi, positions).dot(foot.normal) < 0.;
+  }
+  return false;
 }
 
 template <int dim>
@@ -254,14 +293,6 @@ void BodyFeet<dim>::reject_where_others_are_near(unsigned int begin, unsigned in
               distance;
     }
   }
-  for (unsigned int k = begin; k < end; ++k)
-    if (chunk.is_found[k])
-    {
-      PairFoot<dim> &foot = feet[chunk.pair[k]];
-      note_found(chunk.pair[k], -foot.depth);
-      if (foot.depth <= -pairs->skin() || foot.depth > pairs->reach(found.facet))
-        foot.depth = -infinity;
-    }
 }
 
 template <int dim>
@@ -279,9 +310,6 @@ void BodyFeet<dim>::find_by_search(unsigned int i, const Positions &positions)
              1e-9 * pairs->skin();
   }
   foot = find_pair_foot(*surface, *pairs, pair, positions, cutoff);
-  note_found(i, -foot.depth);
-  if (foot.depth <= -pairs->skin() || foot.depth > pairs->reach(pair.facet))
-    foot.depth = -infinity;
 }
 
 template <int dim>

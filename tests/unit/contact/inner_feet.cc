@@ -41,7 +41,6 @@ void put(const FacetNodes<3> &nodes, const SpatialVector<3> &x, int i, InnerFeet
     batch.point[d][i] = x[d];
   }
   batch.rim[i] = is_triangle ? 0. : 2.;
-  batch.s[0][i] = batch.s[1][i] = -.3;
 }
 
 void expect_closest_points(FacetType type, double bend, double least_share)

@@ -14,9 +14,9 @@ struct InnerFeetBatch
   Numbers node[4][3]; ///< in the order of Facet::nodes; the fourth of a triangle makes it a parallelogram [m]
   Numbers point[3];   ///< x [m]
   Numbers rim;        ///< of a triangle 0; of a quadrilateral 2
-  Numbers s[2];       ///< 2ξ − 1 of a place near the foot; afterwards of the foot
 
-  // Found.
+  // Found, for each point by itself: no digit depends on the others.
+  Numbers s[2];      ///< 2ξ − 1
   Numbers normal[3]; ///< outward unit normal at the foot
   Numbers depth;     ///< (y − x)·n [m]
   Numbers is_inner;  ///< 1 where this is the closest point of the facet and lies off its sides, else 0

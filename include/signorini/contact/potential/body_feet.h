@@ -51,6 +51,9 @@ public:
 private:
   static constexpr unsigned int chunk_size = 64;
 
+  /// Of the pairs of a chunk.
+  using Selection = std::array<bool, chunk_size>;
+
   /// A box and for which positions it was made.
   struct DatedBox
   {
@@ -62,18 +65,21 @@ private:
   struct Chunk
   {
     std::array<unsigned int, chunk_size> pair;
-    std::array<bool, chunk_size> is_found;
+    Selection is_found;
     unsigned int n = 0;
   };
 
   void find_awake(double gap);
   void find_chunk(const Positions &positions);
-  void find_inner_feet_of_chunk(const Positions &positions);
-  bool faces_target(const PairFoot<dim> &foot, const ContactPair<dim> &pair,
-                    const Positions &positions) const;
+  /// Of the pairs in the chunk that are asked for, on the facets of their feet so far; returns which have
+  /// one.
+  Selection find_inner_feet_of_chunk(const Selection &is_asked, const Positions &positions);
+  void put_into_batch(unsigned int pair, unsigned int i, const Positions &positions, InnerFeetBatch &batch);
+  void take_from_batch(unsigned int i, const InnerFeetBatch &batch, PairFoot<dim> &foot);
+  bool faces_target(unsigned int pair, const Positions &positions) const;
   void reject_where_others_are_near(unsigned int begin, unsigned int end, const Positions &positions);
   void find_by_search(unsigned int pair, const Positions &positions);
-  void note_found(unsigned int pair, double distance);
+  void note_found(unsigned int pair);
   const DatedBox &box_of(unsigned int facet, const Positions &positions);
 
   const ContactSurface<dim> *surface = nullptr; ///< of a call
