@@ -78,7 +78,7 @@ void find_inner_feet(InnerFeetBatch &batch)
       const double scale = -1. / (h00 * h11 - h01 * h01), p0 = scale * (h11 * g0 - h01 * g1),
                    p1 = scale * (h00 * g1 - h01 * g0);
       // What is there stays, so that no point depends on the others of the batch.
-      const bool is_there = contraction[i] * last_step[i] < 1e-18;
+      const bool is_there = (step > 0) & (contraction[i] * last_step[i] < 1e-18);
       batch.s[0][i] = is_there ? s0 : s0 + p0;
       batch.s[1][i] = is_there ? s1 : s1 + p1;
       last_step[i] = is_there ? last_step[i] : p0 * p0 + p1 * p1;

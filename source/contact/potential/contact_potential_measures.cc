@@ -18,12 +18,8 @@ ContactMeasures<dim> ContactPotential<dim>::measure() const
 {
   ContactMeasures<dim> measures;
   measures.resultants.assign(surface.n_bodies, SpatialVector<dim>::Zero());
-  for (const auto *list : {&pairs.body_pairs(), &pairs.obstacle_pairs()})
-    for (const ContactPair<dim> &pair : *list)
-    {
-      ++measures.n_pairs;
-      measures.max_stiffness = std::max(measures.max_stiffness, pair.stiffness);
-    }
+  measures.n_pairs = static_cast<unsigned int>(pairs.body_pairs().size() + pairs.obstacle_pairs().size());
+  measures.max_stiffness = pairs.largest_stiffness();
   for_each_overlap_above(0., [&](const NearPair &near) { add_to_measures(near, measures); });
   return measures;
 }

@@ -136,6 +136,10 @@ void PairList<dim>::renew(const Positions &positions)
   obstacle_pairs_.clear();
   for (unsigned int i = 0; i < obstacles_.size(); ++i)
     add_obstacle_pairs(i, positions);
+  largest_stiffness_ = 0.;
+  for (const Pairs *pairs : {&body_pairs_, &obstacle_pairs_})
+    for (const ContactPair<dim> &pair : *pairs)
+      largest_stiffness_ = std::max(largest_stiffness_, pair.stiffness);
 }
 
 template <int dim>
@@ -316,6 +320,7 @@ void PairList<dim>::set_penalty_factor(double penalty_factor)
   const double ratio = penalty_factor / settings_.penalty_factor;
   settings_.penalty_factor = penalty_factor;
   check_input();
+  largest_stiffness_ *= ratio;
   for (Pairs *pairs : {&body_pairs_, &obstacle_pairs_})
     for (ContactPair<dim> &pair : *pairs)
     {

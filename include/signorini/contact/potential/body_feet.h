@@ -12,9 +12,10 @@ namespace signorini::contact
 /// found anew where they may matter.
 ///
 /// A point that was found a distance g outside of its target is not within a distance g' before the nodes
-/// have gone a way of g − g' between them: until then it sleeps. Where a foot lies inside the facet that it
-/// was on, and the boxes of all others are farther away, it is found on that facet alone, many at a time;
-/// everywhere else as find_foot() does. Both agree to round-off.
+/// have gone a way of g − g' between them: until then it sleeps. (Surfaces are closed: no point comes inside
+/// but through them.) Where a foot lies inside the facet that it was on, and the boxes of all others are
+/// farther away, it is found on that facet alone, many at a time; everywhere else as find_foot() does. Both
+/// agree to round-off.
 template <int dim>
 class BodyFeet
 {
@@ -91,7 +92,7 @@ private:
   std::vector<unsigned int> touching_; ///< in rising order
 
   // Reused from call to call.
-  std::vector<unsigned int> awake, near;
+  std::vector<unsigned int> awake;
   std::vector<DatedBox> boxes; ///< one a facet
   unsigned int date = 0;
   Chunk chunk;

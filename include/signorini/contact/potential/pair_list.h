@@ -60,6 +60,9 @@ public:
   /// Of all pairs of bodies [m].
   double largest_offset() const;
 
+  /// Of all pairs [Pa/m].
+  double largest_stiffness() const { return largest_stiffness_; }
+
   /// Changes α, and with it k_A and the damping of all pairs.
   void set_penalty_factor(double penalty_factor);
 
@@ -82,7 +85,7 @@ public:
   {
     Positions shifts = shifts_of_obstacles;
     archive &settings_.penalty_factor &shifts &shifts_at_search &neighbour_list;
-    archive &body_pairs_ &obstacle_pairs_ &n_renewals_;
+    archive &body_pairs_ &obstacle_pairs_ &n_renewals_ &largest_stiffness_;
     if (Archive::is_loading::value)
       move_obstacles(shifts);
   }
@@ -136,6 +139,7 @@ private:
   Pairs body_pairs_;
   Pairs obstacle_pairs_;
   unsigned int n_renewals_ = 0;
+  double largest_stiffness_ = 0.;
 };
 
 /// x(ξ) = Σ_a shape_a x_a on a facet.
