@@ -10,7 +10,7 @@ def compose(run, figures, omissions):
     summary = run.summary
     study = summary["study"]
     images = dict(figures)
-    wide = "".join(f'<div class="card">{page.image(name, images[name])}</div>' for name in ("error_time", "error_dofs")
+    wide = "".join(f'<div class="card">{page.image(name, images[name])}</div>' for name in ("growth", "error_time", "error_dofs")
                    if name in images)
     memory = f'<div class="card">{page.image("memory", images["memory"])}</div>' if "memory" in images else ""
     body = [page.header(summary, page.scene_name(summary)), key_figures(study), wide, orders_tables(study),

@@ -5,7 +5,7 @@ import math
 from .curves import COLOURS, INK, is_number, plt
 
 MESHES = ("uniform", "adaptive")
-ALONG = (*MESHES, "step", "alpha", "degree", "solver")  # a line joins runs that differ in the first of these they have
+ALONG = (*MESHES, "step", "alpha", "degree", "solver", "copies", "potential", "contact")  # a line joins runs that differ in the first of these they have
 LABELS = {"alpha": "\u03b1", "solver": "", "step": "step factor"}
 MARKERS = "osD^vPX*"
 
@@ -83,6 +83,26 @@ def memory(run):
     return figure
 
 
+def growth(run):
+    """What a cell costs over how many there are, of studies that vary the number of bodies: level where all is linear."""
+    rows = [row for row in run.summary["study"]["rows"] if "copies" in row["settings"] and row["status"] == "ok"]
+    shown = [("run time of a cell and step, \u00b5s", lambda row: row["time_of_cell_step"]),
+             ("set-up time of a cell, \u00b5s", lambda row: row["set_up_time"] / row["n_cells"])]
+    if not rows or not all(is_number(row["set_up_time"]) for row in rows):
+        return None
+    figure, all_axes = plt.subplots(1, 2, figsize=(11, 4))
+    for axes, (label, value) in zip(all_axes, shown):
+        found = sorted((row["n_cells"], 1e6 * value(row)) for row in rows)
+        first = found[0][1]
+        axes.axhspan(0.75 * first, 1.25 * first, color="#dfe6ec", label="within 25 % of the smallest run")
+        axes.plot(*zip(*found), color=COLOURS[0], marker="o", markersize=4.5, linewidth=1.4, label="measured")
+        axes.set(xscale="log", xlabel="cells", ylabel=label)
+        axes.set_ylim(bottom=0)
+    legend_below(figure, *all_axes[0].get_legend_handles_labels())
+    figure.suptitle("Growth with the number of bodies", x=0.01, horizontalalignment="left", fontsize=11, fontweight="bold")
+    return figure
+
+
 def legend_below(figure, handles, names):
     """Below all panels, which make room for it."""
     width, height = figure.get_size_inches()
@@ -153,4 +173,5 @@ def is_numeral(value):
 
 
 #: file name, drawing function
-ALL = [("error_time", error_over_time), ("error_dofs", error_over_dofs), ("memory", memory)]
+ALL = [("error_time", error_over_time), ("error_dofs", error_over_dofs), ("growth", growth),
+       ("memory", memory)]

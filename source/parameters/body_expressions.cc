@@ -2,6 +2,7 @@
 #include "signorini/parameters/body_expressions.h"
 
 #include "signorini/base/exceptions.h"
+#include "signorini/parameters/body_parameters.h"
 #include "signorini/parameters/expression.h"
 #include "signorini/parameters/mesh_parameters.h"
 
@@ -107,7 +108,7 @@ void check_expressions(const ParameterText &text, const BodyParameters &body, co
     for (unsigned int c = 0; c < dimension; ++c)
       if (support.displacement[c])
       {
-        const std::string path = "Body " + body.name + "/Support " + support.boundary;
+        const std::string path = body_subsection(body.name) + "/Support " + support.boundary;
         const std::string key(1, "xyz"[c]);
         check_formula({*support.displacement[c], join_path(path, key), text.where(path, key)},
                       placed_points(support.boundary), dimension, end_time);
@@ -115,7 +116,7 @@ void check_expressions(const ParameterText &text, const BodyParameters &body, co
   for (const LoadParameters &load : body.loads)
     for (unsigned int c = 0; c < dimension; ++c)
     {
-      const std::string path = "Body " + body.name + "/Load " + load.boundary;
+      const std::string path = body_subsection(body.name) + "/Load " + load.boundary;
       check_formula({load.traction[c], path + "/Traction", text.where(path, "Traction")},
                     placed_points(load.boundary), dimension, end_time);
     }

@@ -39,6 +39,17 @@ void declare_placement(Declarations &declarations, const DeclarationScope &scope
   placement.add("Scale", positive_length(), "1", "", "Factor of all lengths of the mesh.");
 }
 
+void declare_copies(Declarations &declarations, const DeclarationScope &scope, const std::string &path)
+{
+  SubsectionDeclaration copies(declarations, path,
+                               "The body many times over, on a lattice that its own place is the first "
+                               "corner of; the copies are named "
+                               "NAME.1, NAME.2 and so on, the first component running first.");
+  copies.add("Number", list_of(integer_from(1, 1000000), scope.dimension, scope.dimension),
+             scope.components("1, 1, 1"), "", "In each direction.");
+  copies.add_required("Spacing", scope.vector(), "m", "From one to the next, in each direction.");
+}
+
 void declare_material(Declarations &declarations, const DeclarationScope &scope, const std::string &path)
 {
   SubsectionDeclaration material(declarations, path, "The material of the body; plane strain in 2-D.");
@@ -269,6 +280,8 @@ void declare_body(Declarations &declarations, const DeclarationScope &scope, con
   declare_mesh(declarations, scope, path + "/Mesh");
   if (scope.includes(path + "/Placement"))
     declare_placement(declarations, scope, path + "/Placement");
+  if (scope.includes(path + "/Copies"))
+    declare_copies(declarations, scope, path + "/Copies");
   declare_material(declarations, scope, path + "/Material");
   if (scope.includes(path + "/Initial motion"))
     declare_motion(declarations, scope, path + "/Initial motion");
@@ -304,5 +317,40 @@ BodyParameters read_body(const ParameterText &text, const Declarations &in_use, 
   read_each("Load ", read_load, body.loads);
   check_loads(body, dimension);
   return body;
+}
+
+std::vector<BodyParameters> read_body_and_copies(const ParameterText &text, const Declarations &in_use,
+                                                 const std::string &name, const unsigned int dimension)
+{
+  const BodyParameters body = read_body(text, in_use, name, dimension);
+  const std::string path = "Body " + name + "/Copies";
+  if (text.find_subsection(path) == nullptr)
+    return {body};
+  const SectionReader section(text, in_use, path, dimension);
+  const std::array<unsigned int, 3> number = section.integers("Number");
+  const Triple spacing = section.vector("Spacing");
+  constexpr double most = 1e6;
+  if (const double n_copies = 1. * number[0] * number[1] * number[2]; n_copies > most)
+    throw InputError(section.complain("Number", fmt::format("body '{}' has {:.3g} copies", name, n_copies))
+                         .expected(fmt::format("at most {:.0e} in all", most))
+                         .advise("lower the numbers"));
+  std::vector<BodyParameters> copies;
+  for (unsigned int k = 0; k < number[2]; ++k)
+    for (unsigned int j = 0; j < number[1]; ++j)
+      for (unsigned int i = 0; i < number[0]; ++i)
+      {
+        copies.push_back(body);
+        copies.back().name = fmt::format("{}.{}", name, copies.size());
+        const std::array<unsigned int, 3> place{{i, j, k}};
+        for (unsigned int c = 0; c < dimension; ++c)
+          copies.back().placement.shift[c] += place[c] * spacing[c];
+      }
+  check_digits(SectionReader(text, in_use, "Body " + name + "/Mesh", dimension), copies.back(), dimension);
+  return copies;
+}
+
+std::string body_subsection(const std::string &name)
+{
+  return "Body " + name.substr(0, name.find('.'));
 }
 } // namespace signorini

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 
 namespace signorini
 {
@@ -129,7 +130,15 @@ std::vector<std::pair<std::string, std::string>> read_pairs(const SectionReader 
 std::vector<std::string> read_self_contact(const SectionReader &section,
                                            const std::vector<std::string> &bodies)
 {
-  const std::vector<std::string> names = split(section.value("Self-contact"), ',');
+  std::vector<std::string> names;
+  for (const std::string &name : split(section.value("Self-contact"), ','))
+  {
+    const auto is_copy = [&name](const std::string &body) { return body.rfind(name + ".", 0) == 0; };
+    if (std::none_of(bodies.begin(), bodies.end(), is_copy))
+      names.push_back(name);
+    else // all of them
+      std::copy_if(bodies.begin(), bodies.end(), std::back_inserter(names), is_copy);
+  }
   for (const std::string &name : names)
   {
     if (!is_in(name, bodies))

@@ -51,6 +51,14 @@ void require(const ParameterText &text, const std::string &path, const std::stri
             .advise(fmt::format("add 'subsection {}' … 'end'", ParameterSubsection{path, "", 0}.name())));
 }
 
+std::vector<std::string> names_of(const std::vector<BodyParameters> &bodies)
+{
+  std::vector<std::string> names;
+  for (const BodyParameters &body : bodies)
+    names.push_back(body.name);
+  return names;
+}
+
 void check_subsections(const ParameterText &text, const SectionReader &top,
                        const std::vector<std::string> &bodies, const std::vector<std::string> &obstacles)
 {
@@ -73,6 +81,7 @@ void check_subsections(const ParameterText &text, const SectionReader &top,
     require(text, "Contact", "there are obstacles, which no body can feel without contact",
             top.complain("Obstacles", "").where);
   else if (bodies.size() == 1 && text.find_subsection("Contact") != nullptr &&
+           text.find_subsection("Body " + bodies.front() + "/Copies") == nullptr &&
            text.find("Contact", "Self-contact") == nullptr)
     throw InputError(
         Complaint("'Contact' has nothing to do: there is one body and no obstacle")
@@ -96,11 +105,11 @@ void check_quasi_static(const ParameterText &text, const Parameters &parameters)
   };
   for (const BodyParameters &body : parameters.bodies)
   {
-    reject("Body " + body.name + "/Initial motion", "without inertia there is no velocity");
+    reject(body_subsection(body.name) + "/Initial motion", "without inertia there is no velocity");
     if (body.material.viscosity > 0.)
       throw InputError(Complaint("'Viscosity' contradicts 'Quasi-static': without velocity there is no "
                                  "resistance to it")
-                           .at(text.where("Body " + body.name + "/Material", "Viscosity"))
+                           .at(text.where(body_subsection(body.name) + "/Material", "Viscosity"))
                            .found("'Quasi-static' stands at " + text.where("Quasi-static"))
                            .advise("remove the key, or run 'Explicit'"));
   }
@@ -160,7 +169,7 @@ void check_implicit_contact(const ParameterText &text, const Parameters &paramet
   reject(is_implicit && parameters.adaptivity, "'Adaptivity'", text.where("Adaptivity"));
   for (const BodyParameters &body : parameters.bodies)
     reject(is_implicit && body.material.viscosity > 0., "'Viscosity'",
-           text.where("Body " + body.name + "/Material", "Viscosity"));
+           text.where(body_subsection(body.name) + "/Material", "Viscosity"));
   if (!parameters.contact)
     return;
   reject(is_implicit && parameters.contact->damping, "'Contact/Damping'", text.where("Contact/Damping"));
@@ -178,7 +187,7 @@ void check_plastic(const ParameterText &text, const Parameters &parameters)
     {
       if (body.material.model == MaterialParameters::Model::plastic && text.find_subsection(path) != nullptr)
         throw InputError(Complaint(fmt::format("'Model = J2 plastic' contradicts '{}': {}", path, what))
-                             .at(text.where("Body " + body.name + "/Material", "Model"))
+                             .at(text.where(body_subsection(body.name) + "/Material", "Model"))
                              .found(fmt::format("'{}' stands at {}", path, text.where(path)))
                              .advise(next_step + ", or set Model = neo-Hookean"));
     };
@@ -236,7 +245,7 @@ void check_densities(const ParameterText &text, const Parameters &parameters)
   for (const BodyParameters &body : parameters.bodies)
     if ((has_inertia || has_weight) && body.material.density == 0.)
     {
-      const std::string path = "Body " + body.name + "/Material";
+      const std::string path = body_subsection(body.name) + "/Material";
       throw InputError(Complaint(fmt::format("'{}/Density' is missing", path))
                            .at(text.where(path))
                            .found(has_inertia ? "a run in motion needs the mass of every body"
@@ -325,11 +334,12 @@ Parameters read_parameters(const ParameterText &text)
   parameters.gravity = top.vector("Gravity");
   parameters.solver = read_solver(text, in_use);
   for (const std::string &body : bodies)
-    parameters.bodies.push_back(read_body(text, in_use, body, dimension));
+    for (BodyParameters &copy : read_body_and_copies(text, in_use, body, dimension))
+      parameters.bodies.push_back(std::move(copy));
   for (const std::string &obstacle : obstacles)
     parameters.obstacles.push_back(read_obstacle(text, in_use, obstacle, dimension));
   if (text.find_subsection("Contact") != nullptr)
-    parameters.contact = read_contact(text, in_use, bodies, obstacles);
+    parameters.contact = read_contact(text, in_use, names_of(parameters.bodies), obstacles);
   if (text.find_subsection("Adaptivity") != nullptr)
     parameters.adaptivity = read_adaptivity(text, in_use);
   if (text.find_subsection("Exact solution") != nullptr)

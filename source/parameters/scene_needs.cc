@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "signorini/parameters/scene_needs.h"
 
+#include "signorini/parameters/body_parameters.h"
 #include "signorini/parameters/expression.h"
 
 #include <fmt/format.h>
@@ -43,7 +44,7 @@ SceneNeed every_body(const std::string &text, const FindFault &find_fault)
           [find_fault](const ParameterText &file, const Parameters &parameters) -> MaybeFault
           {
             for (const BodyParameters &body : parameters.bodies)
-              if (const MaybeFault fault = find_fault(file, "Body " + body.name, body))
+              if (const MaybeFault fault = find_fault(file, body_subsection(body.name), body))
                 return fault;
             return {};
           }};
@@ -129,7 +130,7 @@ MaybeFault find_unequal_box(const ParameterText &text, const Parameters &paramet
   const BodyParameters &first = parameters.bodies.front();
   for (const BodyParameters &body : parameters.bodies)
   {
-    const std::string path = "Body " + body.name;
+    const std::string path = body_subsection(body.name);
     if (const std::string key = difference(first.material, body.material); !key.empty())
     {
       SceneFault fault = fault_of_entry(text, path + "/Material", key, "linear elastic");

@@ -46,7 +46,11 @@ const std::vector<FactorEntry> &factor_entries()
       {Factor::contact_stepping, "Contact steppings", any_text(), "Explicit",
        "Values of 'Explicit/Contact stepping', separated by commas."},
       {Factor::step_factor, "Step factors", list_of(number_above(0.), 1, longest_list), "Explicit",
-       "What 'Bulk step factor' and 'Contact step factor' of 'Explicit' are multiplied by."}};
+       "What 'Bulk step factor' and 'Contact step factor' of 'Explicit' are multiplied by."},
+      {Factor::copies, "Copies", any_text(), "",
+       "Values of 'Number' of the 'Copies' of every body that has them, with spaces, separated by commas, "
+       "such "
+       "as 10 10 1, 10 10 10."}};
   return entries;
 }
 
@@ -66,6 +70,14 @@ bool is_same(const std::string &one, const std::string &other)
   return number ? number == parse_number(other) : one == other;
 }
 
+bool has_copies(const ParameterText &text)
+{
+  const std::vector<std::string> bodies = split(text.value("", "Bodies"), ',');
+  return std::any_of(bodies.begin(), bodies.end(),
+                     [&text](const std::string &body)
+                     { return text.find_subsection("Body " + body + "/Copies") != nullptr; });
+}
+
 std::vector<std::string> read_list(const ParameterText &text, const SectionReader &section,
                                    const FactorEntry &entry)
 {
@@ -74,6 +86,9 @@ std::vector<std::string> read_list(const ParameterText &text, const SectionReade
                          .complain(entry.key, fmt::format("the file has no '{}' that '{}' could change",
                                                           entry.needed, entry.key))
                          .advise(fmt::format("remove the list, or add 'subsection {}'", entry.needed)));
+  if (entry.factor == Factor::copies && !has_copies(text))
+    throw InputError(section.complain(entry.key, "no body has 'Copies' whose number could change")
+                         .advise("remove the list, or add 'subsection Copies' to a body"));
   const std::vector<std::string> values = parts_of(section, entry.key);
   for (auto value = values.begin(); value != values.end(); ++value)
     if (std::any_of(values.begin(), value, [&](const std::string &other) { return is_same(*value, other); }))

@@ -2,6 +2,7 @@
 #include "signorini/simulation/held_bodies.h"
 
 #include "signorini/base/exceptions.h"
+#include "signorini/parameters/body_parameters.h"
 #include "signorini/parameters/contact_parameters.h"
 
 #include <Eigen/Dense>
@@ -78,20 +79,27 @@ std::vector<unsigned int> take_group(const Parameters &parameters, std::vector<u
   return group;
 }
 
-/// Gram matrix of the rigid motions at the supported degrees of freedom of some bodies, moved together.
+template <int dim>
+using Entries = std::vector<typename SupportedDofs<dim>::Entry>;
+
+/// Those of each body.
+template <int dim>
+std::vector<Entries<dim>> sort_by_body(const Scene<dim> &scene, const SupportedDofs<dim> &supports)
+{
+  std::vector<Entries<dim>> of_bodies(scene.n_bodies());
+  for (const auto &entry : supports.entries())
+    of_bodies[scene.supports[entry.support].body].push_back(entry);
+  return of_bodies;
+}
+
+/// Gram matrix of the rigid motions at supported degrees of freedom of some bodies, moved together.
 /// Lengths are measured by the distance of the supported points, so that shifts and rotations compare.
 template <int dim>
-Eigen::MatrixXd make_gram_matrix(const Scene<dim> &scene, const SupportedDofs<dim> &supports,
-                                 const std::vector<unsigned int> &bodies)
+Eigen::MatrixXd make_gram_matrix(const Scene<dim> &scene, const Entries<dim> &entries)
 {
-  std::vector<typename SupportedDofs<dim>::Entry> entries;
   dealii::Tensor<1, dim> centre;
-  for (const auto &entry : supports.entries())
-    if (std::find(bodies.begin(), bodies.end(), scene.supports[entry.support].body) != bodies.end())
-    {
-      entries.push_back(entry);
-      centre += entry.position;
-    }
+  for (const auto &entry : entries)
+    centre += entry.position;
   if (!entries.empty())
     centre /= entries.size();
   double length = 1e-300;
@@ -128,7 +136,7 @@ std::string describe_free_motions(const Eigen::MatrixXd &gram)
 /// Contact within a group of bodies stops no motion of them all together: their supports must.
 template <int dim>
 void check_groups(const ParameterText &text, const Parameters &parameters, const Scene<dim> &scene,
-                  const SupportedDofs<dim> &supports)
+                  const std::vector<Entries<dim>> &entries_of_bodies)
 {
   std::vector<unsigned int> unseen(scene.n_bodies());
   std::iota(unseen.rbegin(), unseen.rend(), 0u);
@@ -139,7 +147,10 @@ void check_groups(const ParameterText &text, const Parameters &parameters, const
                                          [&](const unsigned int body)
                                          { return may_touch_obstacle(parameters, scene.body_names[body]); }))
       continue;
-    const Eigen::MatrixXd gram = make_gram_matrix(scene, supports, group);
+    Entries<dim> entries;
+    for (const unsigned int body : group)
+      entries.insert(entries.end(), entries_of_bodies[body].begin(), entries_of_bodies[body].end());
+    const Eigen::MatrixXd gram = make_gram_matrix(scene, entries);
     if (has_full_rank(gram))
       continue;
     const std::string &first = scene.body_names[group.front()];
@@ -147,7 +158,7 @@ void check_groups(const ParameterText &text, const Parameters &parameters, const
         Complaint(fmt::format("body '{}' and all that it can touch are free to move together: their supports "
                               "leave {} of all of them, and none can touch an obstacle",
                               first, describe_free_motions<dim>(gram)))
-            .at(text.where("Body " + first))
+            .at(text.where(body_subsection(first)))
             .found(fmt::format("a group of {} bodies", group.size()))
             .advise("add a subsection Support to one of them, or an obstacle to lean on"));
   }
@@ -158,8 +169,8 @@ template <int dim>
 std::vector<bool> find_held_bodies(const Scene<dim> &scene, const SupportedDofs<dim> &supports)
 {
   std::vector<bool> is_held;
-  for (unsigned int body = 0; body < scene.n_bodies(); ++body)
-    is_held.push_back(has_full_rank(make_gram_matrix(scene, supports, {body})));
+  for (const Entries<dim> &entries : sort_by_body(scene, supports))
+    is_held.push_back(has_full_rank(make_gram_matrix(scene, entries)));
   return is_held;
 }
 
@@ -167,19 +178,20 @@ template <int dim>
 void check_held(const ParameterText &text, const Parameters &parameters, const Scene<dim> &scene,
                 const SupportedDofs<dim> &supports)
 {
+  const std::vector<Entries<dim>> entries = sort_by_body(scene, supports);
   for (unsigned int body = 0; body < scene.n_bodies(); ++body)
   {
-    const Eigen::MatrixXd gram = make_gram_matrix(scene, supports, {body});
+    const Eigen::MatrixXd gram = make_gram_matrix(scene, entries[body]);
     if (!has_full_rank(gram) && !may_touch_something(parameters, body))
       throw InputError(
           Complaint(
               fmt::format("body '{}' is free to move: its supports leave {} and it can touch nothing that "
                           "would hold it",
                           scene.body_names[body], describe_free_motions<dim>(gram)))
-              .at(text.where("Body " + scene.body_names[body]))
+              .at(text.where(body_subsection(scene.body_names[body])))
               .advise("add a subsection Support, or a subsection Contact with something to lean on"));
   }
-  check_groups(text, parameters, scene, supports);
+  check_groups(text, parameters, scene, entries);
 }
 
 template std::vector<bool> find_held_bodies<2>(const Scene<2> &, const SupportedDofs<2> &);

@@ -3,6 +3,7 @@
 #include "signorini/simulation/simulation.h"
 
 #include "signorini/base/exceptions.h"
+#include "signorini/parameters/body_parameters.h"
 #include "signorini/parameters/contact_parameters.h"
 #include "signorini/simulation/initial_overlap.h"
 
@@ -106,10 +107,7 @@ void Simulation<dim>::build_contact()
   if (!scene.obstacles.empty())
   {
     contact::PotentialSettings obstacles_only = settings;
-    obstacles_only.self_contact.clear();
-    for (unsigned int one = 0; one < scene.n_bodies(); ++one)
-      for (unsigned int other = 0; other < one; ++other)
-        obstacles_only.excluded_body_pairs.emplace_back(one, other);
+    obstacles_only.meets_bodies = false;
     forces.surface_contacts.push_back(std::make_shared<ContactForce<dim>>(
         "contact with obstacles", true, *surface_map, scene.obstacles, obstacles_only, communicator));
     if (scene.is_any_obstacle_moving())
@@ -215,17 +213,15 @@ void Simulation<dim>::check_obstacle_sizes() const
                           : std::numeric_limits<double>::max();
   };
   for (const auto &obstacle : scene.obstacles)
+  {
+    if (std::isinf(obstacle->room()))
+      continue;
+    std::vector<bool> is_seen(scene.n_bodies(), false);
+    for (const Facet<dim> &facet : surface_map->surface().facets)
+      if (unseen_depth(obstacle->room(), facet) < 0.25 * facet.room)
+        is_seen[facet.body] = true;
     for (unsigned int body = 0; body < scene.n_bodies(); ++body)
-    {
-      if (std::isinf(obstacle->room()) ||
-          is_pair_excluded(*parameters.contact, scene.body_names[body], obstacle->name()))
-        continue;
-      const auto &facets = surface_map->surface().facets;
-      if (std::none_of(facets.begin(), facets.end(),
-                       [&](const Facet<dim> &facet) {
-                         return facet.body == body &&
-                                unseen_depth(obstacle->room(), facet) < 0.25 * facet.room;
-                       }))
+      if (!is_seen[body] && !is_pair_excluded(*parameters.contact, scene.body_names[body], obstacle->name()))
         throw InputError(
             Complaint(
                 fmt::format("obstacle '{}' is too small for the faces of body '{}': it could slip between "
@@ -235,7 +231,7 @@ void Simulation<dim>::check_obstacle_sizes() const
                 .found(fmt::format("a radius, or half of the smallest width, of {} m", obstacle->room()))
                 .expected("to be seen before it is a quarter of an element deep")
                 .advise("refine the body, raise Contact/Quadrature points, or exclude the pair"));
-    }
+  }
 }
 
 template <int dim>
@@ -275,7 +271,7 @@ void Simulation<dim>::check_initial_overlap()
   if (!parameters.contact->allow_initial_overlap)
     throw InputError(
         Complaint(fmt::format("{} overlaps {} before the run begins", body, other))
-            .at(text->where("Body " + scene.body_names[overlap->body]))
+            .at(text->where(body_subsection(scene.body_names[overlap->body])))
             .found(depth + " below its surface at " + where)
             .expected(fmt::format("at most {} elements", allowed))
             .advise((overlap->is_of_itself() ? "correct its mesh, take it out of Contact/Self-contact"

@@ -3,6 +3,7 @@
 
 #include "signorini/base/exceptions.h"
 #include "signorini/discretization/generated_simplex_mesh.h"
+#include "signorini/parameters/body_parameters.h"
 
 #include <deal.II/base/mpi.h>
 
@@ -170,7 +171,7 @@ void check_size(const ParameterText &text, const Parameters &parameters, const M
   constexpr double gigabyte = 1e9;
   throw InputError(
       Complaint("the meshes are too large for the memory of this machine")
-          .at(text.where("Body " + size.largest->name + "/Mesh"))
+          .at(text.where(body_subsection(size.largest->name) + "/Mesh"))
           .found(
               fmt::format("about {:.3g} cells and {:.3g} degrees of freedom, which take at least {:.3g} GB",
                           size.n_cells, size.n_dofs, size.memory / gigabyte))

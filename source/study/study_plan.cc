@@ -2,6 +2,7 @@
 #include "signorini/study/study_plan.h"
 
 #include "signorini/base/exceptions.h"
+#include "signorini/parameters/body_parameters.h"
 #include "signorini/parameters/read_parameters.h"
 #include "signorini/parameters/strings.h"
 #include "signorini/parameters/study_parameters.h"
@@ -11,6 +12,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace signorini
 {
@@ -50,8 +52,9 @@ std::vector<std::vector<StudySetting>> combine(const StudyParameters &study)
     }
   if (combinations.empty())
     combinations.emplace_back();
-  for (const Factor factor : {Factor::degree, Factor::potential, Factor::penalty_factor,
-                              Factor::linear_solver, Factor::contact_stepping, Factor::step_factor})
+  for (const Factor factor :
+       {Factor::degree, Factor::potential, Factor::penalty_factor, Factor::linear_solver,
+        Factor::contact_stepping, Factor::step_factor, Factor::copies})
     multiply(combinations, study, factor);
   return combinations;
 }
@@ -84,6 +87,8 @@ public:
       return set("Explicit", "Contact stepping", value);
     case Factor::step_factor:
       return shorten_step(parse_number(value).value());
+    case Factor::copies:
+      return multiply_bodies(join(split(value, ' '), ", "));
     }
   }
 
@@ -108,8 +113,17 @@ private:
   void refine(const long n_levels)
   {
     remove_subsection(text, "Adaptivity");
+    std::string last;
     for (const BodyParameters &body : parameters.bodies)
-      set("Body " + body.name + "/Mesh", "Refinements", std::to_string(body.mesh.refinements + n_levels));
+      if (const std::string path = body_subsection(body.name); std::exchange(last, path) != path)
+        set(path + "/Mesh", "Refinements", std::to_string(body.mesh.refinements + n_levels));
+  }
+
+  void multiply_bodies(const std::string &number)
+  {
+    for (const std::string &body : split(text.value("", "Bodies"), ','))
+      if (const std::string path = "Body " + body + "/Copies"; text.find_subsection(path) != nullptr)
+        set(path, "Number", number);
   }
 
   void shorten_step(const double factor)
@@ -189,8 +203,10 @@ std::string factor_name(const Factor factor)
     return "solver";
   case Factor::contact_stepping:
     return "contact";
-  default:
+  case Factor::step_factor:
     return "step";
+  default:
+    return "copies";
   }
 }
 

@@ -48,6 +48,8 @@ Columns columns_of(const StudyRow &row, const StudyResults &results,
                         {"run time [s]", cell(row.run_time)},
                         {"run time with output [s]", cell(row.total_time)},
                         {"core-seconds [s]", cell(row.core_seconds())},
+                        {"set-up time [s]", cell(row.set_up_time)},
+                        {"run time of a cell and step [s]", cell(row.time_of_cell_step())},
                         {"memory [MB]", cell(row.memory_mb)},
                         {"largest error", cell(row.largest_error(results.parameters.quantities))}};
   columns.insert(columns.end(), numbers.begin(), numbers.end());
@@ -96,6 +98,8 @@ Json describe_row(const StudyRow &row, const std::vector<std::string> &quantitie
           {"run_time", row.run_time},
           {"run_time_with_output", row.total_time},
           {"core_seconds", row.core_seconds()},
+          {"set_up_time", row.set_up_time},
+          {"time_of_cell_step", row.time_of_cell_step()},
           {"memory_peak_mb", row.memory_mb},
           {"largest_error", row.largest_error(quantities)},
           {"errors", errors}};

@@ -57,6 +57,7 @@ void read_summary(const Json &summary, const StudyParameters &study, StudyRow &r
   row.total_time = number(summary.at("run_time"), "total");
   const double output = number(summary.at("run_time").at("sections"), "output");
   row.run_time = std::isfinite(output) ? row.total_time - output : row.total_time;
+  row.set_up_time = number(summary.at("run_time").at("sections"), "set-up");
   row.memory_mb = number(summary, "memory_peak_mb");
   if (summary.contains("contact"))
   {

@@ -300,7 +300,8 @@ struct StudyParameters
     penalty_factor,
     linear_solver,
     contact_stepping,
-    step_factor ///< multiplies both step factors of `Explicit`
+    step_factor, ///< multiplies both step factors of `Explicit`
+    copies       ///< Number of the `Copies` of every body that has them
   };
   std::map<Factor, std::vector<std::string>> values; ///< as in the file; absent: the file's own value
   unsigned int n_repeats = 1;                        ///< of every run

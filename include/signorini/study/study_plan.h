@@ -13,7 +13,7 @@ namespace signorini
 /// The value that a run has of a factor, as it stands in the file.
 using StudySetting = std::pair<StudyParameters::Factor, std::string>;
 
-/// Short name of a factor, as in the names of runs: uniform, adaptive, degree, alpha, solver, step.
+/// Short name of a factor, as in the names of runs: uniform, adaptive, degree, alpha, solver, step, copies.
 std::string factor_name(StudyParameters::Factor factor);
 
 /// `uniform-2_alpha-10`: the settings of a run as a name of a folder.

@@ -31,11 +31,14 @@ struct StudyRow
   double k_A = none;              ///< largest contact stiffness [Pa/m]
   double run_time = none;         ///< without the writing of output [s]
   double total_time = none;       ///< with it [s]
+  double set_up_time = none;      ///< of these [s]
   double memory_mb = none;        ///< peak, of all ranks
   std::vector<StudyError> errors; ///< of the exact solution, then the estimated ones
 
   std::string name() const { return settings_name(settings); }
   double core_seconds() const { return n_ranks * run_time; }
+  /// What a cell takes in a step: of the run time without set-up and output [s].
+  double time_of_cell_step() const { return (run_time - set_up_time) / n_cells / n_steps; }
   /// Magnitude of the error of a quantity; NaN if the run has none.
   double error(const std::string &quantity) const;
   /// The largest magnitude over several quantities; NaN if one of them has none.

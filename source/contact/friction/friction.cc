@@ -125,7 +125,7 @@ SlipMotion<dim> Friction<dim>::find_motion(const NearPair &near) const
     motion.shift = find_shift(near.pair.target);
     return motion;
   }
-  const LocalPoint<dim> &xi = near.foot.closest.xi;
+  const LocalPoint<dim> &xi = near.foot.xi;
   motion.turn = find_turn(FacetBasis<dim>(gather_nodes(*near.target, old_positions), xi),
                           FacetBasis<dim>(gather_nodes(*near.target, potential.positions()), xi));
   return motion;
@@ -174,9 +174,9 @@ void Friction<dim>::add_forces(std::vector<SpatialVector<dim>> &forces) const
         if (near.target == nullptr)
           return;
         // The target gets its force at the foot, a depth away from the point: the couple makes up for that.
-        const SpatialVector<dim> arm = -near.foot.gap;
+        const SpatialVector<dim> arm = -near.foot.gap();
         const SpatialTensor<dim> couple = force * arm.transpose() - arm * force.transpose();
-        const FacetBasis<dim> basis(gather_nodes(*near.target, potential.positions()), near.foot.closest.xi);
+        const FacetBasis<dim> basis(gather_nodes(*near.target, potential.positions()), near.foot.xi);
         for (unsigned int b = 0; b < near.target->n_nodes(); ++b)
           forces[near.target->nodes[b]] += couple_force(basis, b, couple);
       });

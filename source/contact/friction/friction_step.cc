@@ -11,7 +11,7 @@ auto Friction<dim>::find_levers(const NearPair &near, const Positions &acting) -
   typename LinearSlip<dim>::Levers levers = LinearSlip<dim>().levers;
   if (near.target == nullptr)
     return levers;
-  const LocalPoint<dim> &xi = near.foot.closest.xi;
+  const LocalPoint<dim> &xi = near.foot.xi;
   const FacetNodes<dim> nodes = gather_nodes(*near.target, acting);
   const auto dual = find_oblique_dual(evaluate_facet_frame(nodes, xi), near.foot.normal);
   if (!dual)

@@ -142,18 +142,18 @@ void compute_body_friction_tangent(const RubbingPoint<dim> &point, const FacetNo
                                    const FacetNodes<dim> &old_target, Eigen::MatrixXd &block)
 {
   const PairFoot<dim> &foot = point.foot;
-  const LocalPoint<dim> &xi = foot.closest.xi;
+  const LocalPoint<dim> &xi = foot.xi;
   const FacetJet<dim> jet(target, xi), old_jet(old_target, xi);
   const FacetBasis<dim, Number<dim>> basis = make_present_basis(jet), old_basis = make_old_basis(old_jet);
 
   SlipMotion<dim, Number<dim>> motion;
-  motion.now = make_variables<dim>(foot.gap, 0);
+  motion.now = make_variables<dim>(foot.gap(), 0);
   std::array<SpatialVector<dim>, dim - 1> slopes;
   for (int i = 0; i < dim - 1; ++i)
     slopes[i] = -old_jet.first[i];
   motion.before = make_function_of_foot<dim>(point.old_position - old_jet.position, slopes);
   motion.turn = find_turn(old_basis, basis);
-  if (has_normal_of_facet(*point.target, foot.closest))
+  if (has_normal_of_facet(*point.target, foot.xi, std::abs(foot.depth)))
     motion.normal = basis.normal;
   else
   {

@@ -11,6 +11,19 @@
 
 namespace signorini::contact
 {
+namespace
+{
+/// Adds a force to the nodes of a facet.
+template <int dim>
+void spread(const SpatialVector<dim> &force, const Facet<dim> &facet,
+            const std::array<double, Facet<dim>::max_n_nodes> &shape, std::vector<SpatialVector<dim>> &forces)
+{
+  const unsigned int n_nodes = facet.n_nodes();
+  for (unsigned int a = 0; a < n_nodes; ++a)
+    forces[facet.nodes[a]] += shape[a] * force;
+}
+} // namespace
+
 template <int dim>
 ContactPotential<dim>::ContactPotential(const ContactSurface<dim> &contact_surface, Obstacles obstacles,
                                         PotentialSettings settings)
@@ -45,6 +58,7 @@ double ContactPotential<dim>::update(const Positions &positions)
     old_energy = energy();
   }
   pairs.renew(positions);
+  body_feet.forget(pairs);
   is_evaluated = false;
   evaluate(positions);
   return std::exchange(has_pairs, true) ? energy() - old_energy : 0.;
@@ -54,12 +68,14 @@ template <int dim>
 void ContactPotential<dim>::set_penalty_factor(double penalty_factor)
 {
   pairs.set_penalty_factor(penalty_factor);
+  body_feet.note_offsets();
 }
 
 template <int dim>
 void ContactPotential<dim>::set_multipliers(NodalPressures<dim> multipliers)
 {
   pairs.set_multipliers(std::move(multipliers));
+  body_feet.note_offsets();
 }
 
 template <int dim>
@@ -74,64 +90,28 @@ void ContactPotential<dim>::evaluate(const Positions &positions)
   // A renewal has to look at the same positions before and after: do not do the work again for its caller.
   if (is_evaluated && positions == evaluated_positions)
     return;
-  evaluated_positions = positions;
-  start_depths.clear();
-  evaluate_body_pairs();
+  move_to(positions);
+  find_feet(0.);
   evaluate_obstacle_pairs();
   is_evaluated = true;
 }
 
 template <int dim>
-void ContactPotential<dim>::evaluate_body_pairs()
+void ContactPotential<dim>::move_to(const Positions &positions)
 {
-  const auto &body_pairs = pairs.body_pairs();
-  body_feet.resize(body_pairs.size());
-  if (body_pairs.empty())
-    return;
-  const double motion = pairs.bound_motion(evaluated_positions);
-  for (std::size_t i = 0; i < body_pairs.size(); ++i)
-    body_feet[i] = evaluate_body_pair(body_pairs[i], motion);
-}
-
-template <int dim>
-PairFoot<dim> ContactPotential<dim>::evaluate_body_pair(const ContactPair<dim> &pair, double motion) const
-{
-  // A foot cannot have gone farther away than the nodes have moved; knowing that rules out most candidates.
-  const double cutoff = std::min(pairs.reach(pair.facet),
-                                 (1. + 1e-6) * (pair.distance_when_made + motion) + 1e-9 * pairs.skin());
-  PairFoot<dim> foot = find_pair_foot(pair, evaluated_positions, cutoff);
-  if (foot.depth <= -pairs.skin())
-    foot.depth = -std::numeric_limits<double>::infinity();
-  return foot;
-}
-
-template <int dim>
-PairFoot<dim> ContactPotential<dim>::find_pair_foot(const ContactPair<dim> &pair, const Positions &at,
-                                                    double cutoff) const
-{
-  PairFoot<dim> result;
-  result.position = interpolate(surface.facets[pair.facet], pair.shape, at);
-  const SurfaceFoot<dim> foot = pairs.find_body_foot(pair, at, result.position, cutoff);
-  if (!std::isfinite(foot.depth))
-    return result;
-  result.depth = foot.depth;
-
-  const Facet<dim> &target = surface.facets[foot.facet];
-  result.facet = foot.facet;
-  result.closest = foot.closest;
-  result.gap = result.position - foot.closest.position;
-  result.shape = evaluate_facet_shape(target, foot.closest.xi).value;
-  if (!has_normal_of_facet(target, foot.closest))
+  if (is_linear() || evaluated_positions.size() != positions.size())
+    body_feet.forget(pairs);
+  else
   {
-    result.normal = result.gap / -foot.depth;
-    return result;
+    double largest_square = 0.;
+    for (std::size_t node = 0; node < positions.size(); ++node)
+      if (const double square = (positions[node] - evaluated_positions[node]).squaredNorm();
+          !(square <= largest_square))
+        largest_square = square;
+    body_feet.note_motion(pairs.largest_motion_factor() * std::sqrt(largest_square));
   }
-  // Inside a facet, or too close for the gap to have a direction, the facet's normal is the direction: it has
-  // none of the round-off that the gap takes from coordinates many orders larger than itself.
-  result.normal = evaluate_facet_frame(gather_nodes(target, at), foot.closest.xi).area_normal.normalized();
-  result.depth = -result.gap.dot(result.normal);
-  result.gap = -result.depth * result.normal;
-  return result;
+  evaluated_positions = positions;
+  start_depths.clear();
 }
 
 template <int dim>
@@ -153,7 +133,6 @@ void ContactPotential<dim>::evaluate_obstacle_pairs()
       PairFoot<dim> &foot = obstacle_feet[first + i];
       foot.depth = raw_obstacle_feet[i].depth;
       foot.normal = raw_obstacle_feet[i].normal;
-      foot.gap = -foot.depth * foot.normal;
       foot.position = obstacle_points[i];
       obstacle_hessians[first + i] = raw_obstacle_feet[i].depth_hessian;
     }
@@ -165,14 +144,8 @@ template <int dim>
 double ContactPotential<dim>::energy() const
 {
   double sum = 0.;
-  const auto add = [&sum](const auto &list, const auto &feet)
-  {
-    for (std::size_t i = 0; i < feet.size(); ++i)
-      sum +=
-          .5 * list[i].area * list[i].stiffness * std::pow(std::max(feet[i].depth + list[i].offset, 0.), 2);
-  };
-  add(pairs.body_pairs(), body_feet);
-  add(pairs.obstacle_pairs(), obstacle_feet);
+  for_each_overlap_above(0., [&sum](const NearPair &near)
+                         { sum += .5 * near.pair.area * near.pair.stiffness * std::pow(near.overlap(), 2); });
   return sum;
 }
 
@@ -183,8 +156,9 @@ void ContactPotential<dim>::add_forces(std::vector<SpatialVector<dim>> &forces) 
                          [&forces](const NearPair &near)
                          {
                            const SpatialVector<dim> force = near.force();
-                           for (unsigned int a = 0; a < near.stencil.n_nodes; ++a)
-                             forces[near.stencil.node[a]] += near.stencil.weight[a] * force;
+                           spread<dim>(force, near.contactor, near.pair.shape, forces);
+                           if (near.target != nullptr)
+                             spread<dim>(-force, *near.target, near.foot.shape, forces);
                          });
 }
 
@@ -195,12 +169,10 @@ double ContactPotential<dim>::depth_rate(const NearPair &near,
   // In an implicit step only the part of the way on which the point touches counts.
   if (is_linear())
     return (near.foot.depth - std::max(start_depths[near.index], 0.)) / linear_time_step;
-  SpatialVector<dim> gap_rate = SpatialVector<dim>::Zero();
-  for (unsigned int a = 0; a < near.stencil.n_nodes; ++a)
-    gap_rate += near.stencil.weight[a] * velocities[near.stencil.node[a]];
-  if (near.target == nullptr)
-    gap_rate -= places.velocities[near.pair.target];
-  return -near.foot.normal.dot(gap_rate);
+  const SpatialVector<dim> of_target = near.target == nullptr
+                                           ? places.velocities[near.pair.target]
+                                           : interpolate(*near.target, near.foot.shape, velocities);
+  return near.foot.normal.dot(of_target - interpolate(near.contactor, near.pair.shape, velocities));
 }
 
 template <int dim>
@@ -224,8 +196,9 @@ double ContactPotential<dim>::add_damping_forces(const std::vector<SpatialVector
                            const double pressure = damping_pressure(near, rate);
                            power += near.pair.area * pressure * rate;
                            const SpatialVector<dim> force = near.pair.area * pressure * near.foot.normal;
-                           for (unsigned int a = 0; a < near.stencil.n_nodes; ++a)
-                             forces[near.stencil.node[a]] += near.stencil.weight[a] * force;
+                           spread<dim>(force, near.contactor, near.pair.shape, forces);
+                           if (near.target != nullptr)
+                             spread<dim>(-force, *near.target, near.foot.shape, forces);
                          });
   return power;
 }

@@ -18,12 +18,8 @@ ContactMeasures<dim> ContactPotential<dim>::measure() const
 {
   ContactMeasures<dim> measures;
   measures.resultants.assign(surface.n_bodies, SpatialVector<dim>::Zero());
-  for (const auto *list : {&pairs.body_pairs(), &pairs.obstacle_pairs()})
-    for (const ContactPair<dim> &pair : *list)
-    {
-      ++measures.n_pairs;
-      measures.max_stiffness = std::max(measures.max_stiffness, pair.stiffness);
-    }
+  measures.n_pairs = static_cast<unsigned int>(pairs.body_pairs().size() + pairs.obstacle_pairs().size());
+  measures.max_stiffness = pairs.largest_stiffness();
   for_each_overlap_above(0., [&](const NearPair &near) { add_to_measures(near, measures); });
   return measures;
 }
@@ -116,13 +112,15 @@ std::vector<double> ContactPotential<dim>::facet_errors() const
 {
   // A multiplier that is larger than the pressure is an error as well, so all points count.
   std::vector<double> errors(surface.facets.size(), 0.);
+  if (!is_linear())
+    find_feet(0.);
   const auto add = [&errors](const auto &list, const auto &feet)
   {
     for (std::size_t i = 0; i < feet.size(); ++i)
       errors[list[i].facet] +=
           list[i].area * list[i].stiffness * std::pow(std::max(feet[i].depth, -list[i].offset), 2);
   };
-  add(pairs.body_pairs(), body_feet);
+  add(pairs.body_pairs(), body_feet.all());
   add(pairs.obstacle_pairs(), obstacle_feet);
   return errors;
 }

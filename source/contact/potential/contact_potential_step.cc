@@ -26,8 +26,8 @@ void ContactPotential<dim>::shift_action(const ContactPair<dim> &pair, const Pos
   // N_b + N_b,α Δξ_α with the Δξ that takes the foot at `start` to the line along the normal through the
   // contactor's point there.
   const Facet<dim> &target = surface.facets[foot.facet];
-  const FacetShape<dim> shape = evaluate_facet_shape(target, foot.closest.xi);
-  const FacetFrame<dim> frame = evaluate_facet_frame(gather_nodes(target, start), foot.closest.xi);
+  const FacetShape<dim> shape = evaluate_facet_shape(target, foot.xi);
+  const FacetFrame<dim> frame = evaluate_facet_frame(gather_nodes(target, start), foot.xi);
   const auto dual = find_oblique_dual(frame, foot.normal);
   if (!dual)
     return; // beside the facet: no line along the normal meets its plane
@@ -57,32 +57,32 @@ void ContactPotential<dim>::find_entries(const Positions &start)
                            if (start_depth <= slack)
                              return;
                            const double cutoff = pairs.reach(near.pair.facet) + 2. * pairs.skin();
-                           PairFoot<dim> entry = find_pair_foot(near.pair, start, cutoff);
+                           PairFoot<dim> entry = find_pair_foot(surface, pairs, near.pair, start, cutoff);
                            if (entry.depth >= start_depth - slack)
                              return;
                            if (!std::isfinite(entry.depth))
                            {
-                             body_feet[near.index] = entry;
+                             body_feet.all()[near.index] = entry;
                              return;
                            }
                            PairStencil<dim> stencil;
                            stencil.add(near.contactor, near.pair.shape, 1.);
                            stencil.add(surface.facets[entry.facet], entry.shape, -1.);
                            entry.depth -= entry.normal.dot(weigh(stencil, motion));
-                           entry.gap = -entry.depth * entry.normal;
                            entry.position = near.foot.position;
-                           body_feet[near.index] = entry;
+                           body_feet.all()[near.index] = entry;
                          });
 }
 
 template <int dim>
 void ContactPotential<dim>::linearize(const Positions &start)
 {
-  start_depths.assign(body_feet.size() + obstacle_feet.size(), 0.);
+  find_feet(std::numeric_limits<double>::max());
+  start_depths.assign(body_feet.all().size() + obstacle_feet.size(), 0.);
   is_evaluated = false;
-  for (std::size_t i = 0; i < body_feet.size(); ++i)
-    if (std::isfinite(body_feet[i].depth))
-      shift_action(pairs.body_pairs()[i], start, body_feet[i]);
+  for (std::size_t i = 0; i < body_feet.all().size(); ++i)
+    if (PairFoot<dim> &foot = body_feet.all()[i]; std::isfinite(foot.depth))
+      shift_action(pairs.body_pairs()[i], start, foot);
   Positions motion = evaluated_positions;
   for (std::size_t node = 0; node < motion.size(); ++node)
     motion[node] -= start[node];
@@ -122,9 +122,9 @@ void ContactPotential<dim>::follow(const Positions &increments, double time_step
       [&](const NearPair &near)
       {
         const auto i = static_cast<std::size_t>(near.index);
-        PairFoot<dim> &foot = i < body_feet.size() ? body_feet[i] : obstacle_feet[i - body_feet.size()];
+        const std::size_t n_body_feet = body_feet.all().size();
+        PairFoot<dim> &foot = i < n_body_feet ? body_feet.all()[i] : obstacle_feet[i - n_body_feet];
         foot.depth -= foot.normal.dot(weigh(near.stencil, increments));
-        foot.gap = -foot.depth * foot.normal;
         foot.position = interpolate(surface.facets[near.pair.facet], near.pair.shape, evaluated_positions);
       });
 }

@@ -16,7 +16,7 @@ namespace
 template <int dim>
 bool is_pushed(const PairFoot<dim> &foot, const SpatialVector<dim> &tangent)
 {
-  return std::abs(foot.gap.dot(tangent)) > 1e-8 * foot.gap.norm() * tangent.norm();
+  return std::abs(foot.gap().dot(tangent)) > 1e-8 * foot.gap().norm() * tangent.norm();
 }
 
 template <int dim>
@@ -30,7 +30,7 @@ void compute_coupling(const PairFoot<dim> &foot, const PairStencil<dim> &stencil
     {
       SpatialVector<dim> entry = -stencil.weight[a] * jet.first[i];
       if (a >= first_target_node)
-        entry -= jet.shape.first[a - first_target_node][i] * foot.gap;
+        entry -= jet.shape.first[a - first_target_node][i] * foot.gap();
       slide.coupling.template block<dim, 1>(dim * a, i) = entry;
     }
 }
@@ -41,7 +41,7 @@ LocalTensor<dim> compute_local_hessian(const PairFoot<dim> &foot, const FacetJet
   LocalTensor<dim> hessian;
   for (unsigned int i = 0; i < dim - 1; ++i)
     for (unsigned int j = 0; j < dim - 1; ++j)
-      hessian(i, j) = jet.first[i].dot(jet.first[j]) - foot.gap.dot(jet.second[i + j]);
+      hessian(i, j) = jet.first[i].dot(jet.first[j]) - foot.gap().dot(jet.second[i + j]);
   return hessian;
 }
 } // namespace
@@ -66,8 +66,8 @@ template <int dim>
 FootSlide<dim> find_foot_slide(const PairFoot<dim> &foot, const PairStencil<dim> &stencil,
                                const FacetNodes<dim> &target)
 {
-  const FacetJet<dim> jet(target, foot.closest.xi);
-  const LocalPlace<dim> place = find_local_place(target, foot.closest.xi, 0.);
+  const FacetJet<dim> jet(target, foot.xi);
+  const LocalPlace<dim> place = find_local_place(target, foot.xi, 0.);
   FootSlide<dim> slide;
   compute_coupling(foot, stencil, jet, slide);
   LocalTensor<dim> directions = place.directions;
@@ -95,16 +95,15 @@ FootSlide<dim> find_foot_slide(const PairFoot<dim> &foot, const PairStencil<dim>
 }
 
 template <int dim>
-bool has_normal_of_facet(const Facet<dim> &target, const ClosestPoint<dim> &foot)
+bool has_normal_of_facet(const Facet<dim> &target, const LocalPoint<dim> &xi, double distance)
 {
-  return find_local_place(target, foot.xi, 0.).n_free == dim - 1 ||
-         !(foot.distance > 1e-9 * target.layer_thickness);
+  return find_local_place(target, xi, 0.).n_free == dim - 1 || !(distance > 1e-9 * target.layer_thickness);
 }
 
 template struct FacetJet<2>;
 template struct FacetJet<3>;
 template FootSlide<2> find_foot_slide(const PairFoot<2> &, const PairStencil<2> &, const FacetNodes<2> &);
 template FootSlide<3> find_foot_slide(const PairFoot<3> &, const PairStencil<3> &, const FacetNodes<3> &);
-template bool has_normal_of_facet(const Facet<2> &, const ClosestPoint<2> &);
-template bool has_normal_of_facet(const Facet<3> &, const ClosestPoint<3> &);
+template bool has_normal_of_facet(const Facet<2> &, const LocalPoint<2> &, double);
+template bool has_normal_of_facet(const Facet<3> &, const LocalPoint<3> &, double);
 } // namespace signorini::contact

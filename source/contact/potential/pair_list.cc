@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 #include <stdexcept>
 #include <utility>
 
@@ -34,7 +35,7 @@ PairList<dim>::PairList(const ContactSurface<dim> &contact_surface, Obstacles ri
       reach_(compute_reach()), neighbour_list(make_neighbour_list())
 {
   for (const Facet<dim> &facet : surface.facets)
-    largest_motion_factor = std::max(largest_motion_factor, lebesgue_constant(facet));
+    largest_motion_factor_ = std::max(largest_motion_factor_, lebesgue_constant(facet));
   for (const Facet<dim> &facet : surface.facets)
     if (FacetPoints &points = gauss_points[index(facet)]; points.empty())
       for (const auto &point : make_gauss_points<dim>(facet.type, settings_.n_quadrature_points))
@@ -86,14 +87,14 @@ std::vector<double> PairList<dim>::compute_reach() const
 template <int dim>
 NeighbourList<dim> PairList<dim>::make_neighbour_list() const
 {
-  const auto is_allowed = [excluded = settings_.excluded_body_pairs,
-                           self = settings_.self_contact](unsigned int body, unsigned int other)
-  {
-    if (body == other)
-      return std::find(self.begin(), self.end(), body) != self.end();
-    return std::find(excluded.begin(), excluded.end(), std::pair(body, other)) == excluded.end() &&
-           std::find(excluded.begin(), excluded.end(), std::pair(other, body)) == excluded.end();
-  };
+  if (!settings_.meets_bodies)
+    return NeighbourList<dim>(surface, reach_, skin_, nullptr);
+  std::set<std::pair<unsigned int, unsigned int>> excluded;
+  for (const auto &[one, other] : settings_.excluded_body_pairs)
+    excluded.insert({std::minmax(one, other)});
+  const std::set<unsigned int> self(settings_.self_contact.begin(), settings_.self_contact.end());
+  const auto is_allowed = [excluded, self](unsigned int body, unsigned int other)
+  { return body == other ? self.count(body) > 0 : excluded.count(std::minmax(body, other)) == 0; };
   return NeighbourList<dim>(surface, reach_, skin_, is_allowed);
 }
 
@@ -123,7 +124,6 @@ void PairList<dim>::renew(const Positions &positions)
     neighbour_list.rebuild(positions);
     shifts_at_search = shifts_of_obstacles;
   }
-  positions_at_renewal = positions;
   ++n_renewals_;
 
   const Pairs old_pairs = std::move(body_pairs_);
@@ -136,6 +136,10 @@ void PairList<dim>::renew(const Positions &positions)
   obstacle_pairs_.clear();
   for (unsigned int i = 0; i < obstacles_.size(); ++i)
     add_obstacle_pairs(i, positions);
+  largest_stiffness_ = 0.;
+  for (const Pairs *pairs : {&body_pairs_, &obstacle_pairs_})
+    for (const ContactPair<dim> &pair : *pairs)
+      largest_stiffness_ = std::max(largest_stiffness_, pair.stiffness);
 }
 
 template <int dim>
@@ -157,12 +161,13 @@ void PairList<dim>::keep_coefficients(const Pairs &old_pairs)
 }
 
 template <int dim>
-double PairList<dim>::bound_motion(const Positions &positions) const
+double PairList<dim>::largest_offset() const
 {
-  double largest_square = 0.;
-  for (std::size_t node = 0; node < positions.size(); ++node)
-    largest_square = std::max(largest_square, (positions[node] - positions_at_renewal[node]).squaredNorm());
-  return 2. * largest_motion_factor * std::sqrt(largest_square);
+  double largest = 0.;
+  if (!multipliers.empty())
+    for (const ContactPair<dim> &pair : body_pairs_)
+      largest = std::max(largest, pair.offset);
+  return largest;
 }
 
 template <int dim>
@@ -208,7 +213,7 @@ void PairList<dim>::add_body_pair(unsigned int neighbours, const FacetPoint &poi
   pair.neighbours = neighbours;
   pair.xi = point.point.xi;
 
-  const double motion = largest_motion_factor * skin_;
+  const double motion = largest_motion_factor_ * skin_;
   const SpatialVector<dim> x = interpolate(surface.facets[pair.facet], point.shape, positions);
   const SurfaceFoot<dim> foot = find_body_foot(pair, positions, x, reach_[pair.facet] + motion);
   if (foot.depth < -2. * motion) // too far outside (or −∞) to touch before the next renewal
@@ -223,7 +228,6 @@ void PairList<dim>::add_body_pair(unsigned int neighbours, const FacetPoint &poi
     if (distance > std::min(far, reach_[pair.facet]))
       return;
   }
-  pair.distance_when_made = foot.closest.distance;
   set_coefficients(pair, point, &surface.facets[foot.facet]);
   body_pairs_.push_back(pair);
 }
@@ -231,7 +235,7 @@ void PairList<dim>::add_body_pair(unsigned int neighbours, const FacetPoint &poi
 template <int dim>
 void PairList<dim>::add_obstacle_pairs(unsigned int obstacle, const Positions &positions)
 {
-  const double largest_gap = 2. * largest_motion_factor * skin_;
+  const double largest_gap = 2. * largest_motion_factor_ * skin_;
   std::vector<typename Obstacle<dim>::Foot> node_feet;
   obstacles_[obstacle]->find_feet(positions, node_feet);
 
@@ -258,10 +262,7 @@ void PairList<dim>::add_obstacle_pairs(unsigned int obstacle, const Positions &p
   obstacles_[obstacle]->find_feet(points, node_feet);
   for (std::size_t i = 0; i < near.size(); ++i)
     if (node_feet[i].depth >= -largest_gap)
-    {
-      near[i].distance_when_made = std::abs(node_feet[i].depth);
       obstacle_pairs_.push_back(near[i]);
-    }
 }
 
 template <int dim>
@@ -319,6 +320,7 @@ void PairList<dim>::set_penalty_factor(double penalty_factor)
   const double ratio = penalty_factor / settings_.penalty_factor;
   settings_.penalty_factor = penalty_factor;
   check_input();
+  largest_stiffness_ *= ratio;
   for (Pairs *pairs : {&body_pairs_, &obstacle_pairs_})
     for (ContactPair<dim> &pair : *pairs)
     {

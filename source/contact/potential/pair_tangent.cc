@@ -32,10 +32,7 @@ void compute_body_tangent(const ContactPair<dim> &pair, const PairFoot<dim> &fou
   const double overlap = found_foot.depth + pair.offset;
   PairFoot<dim> foot = found_foot;
   if (pair.offset != 0. && std::abs(foot.depth) < 1e-7 * std::abs(overlap))
-  {
     foot.depth = 1e-7 * overlap;
-    foot.gap = -foot.depth * foot.normal;
-  }
   const double ratio = pair.offset != 0. ? overlap / foot.depth : 1.;
 
   const FootSlide<dim> slide = find_foot_slide(foot, stencil, target);

@@ -73,6 +73,8 @@ NeighbourList<dim>::NeighbourList(const ContactSurface<dim> &contact_surface, st
     facets_of_body.at(surface.facets[f].body).push_back(f);
     largest_motion_factor = std::max(largest_motion_factor, lebesgue_constant(surface.facets[f]));
   }
+  if (!is_allowed)
+    return;
   // A wall must be squashed to less than half of its thickness before a point of one side sees the other.
   std::vector<double> distances;
   for (const double distance : reach)
@@ -91,8 +93,10 @@ void NeighbourList<dim>::rebuild(const Positions &positions)
 template <int dim>
 void NeighbourList<dim>::find_neighbours(const Positions &positions)
 {
-  Boxes boxes(surface, positions);
   neighbours_.clear();
+  if (!is_allowed)
+    return;
+  Boxes boxes(surface, positions);
   for (unsigned int body = 0; body < surface.n_bodies; ++body)
     add_neighbours_of_body(body, boxes);
 }

@@ -13,21 +13,20 @@ namespace signorini::contact
 template <int dim>
 struct ContactPair
 {
-  unsigned int facet = 0;                              ///< the contactor
-  unsigned int target = 0;                             ///< index of the body or of the obstacle
-  unsigned int neighbours = 0;                         ///< bodies only: index into the neighbour list
-  LocalPoint<dim> xi;                                  ///< the point on the contactor
+  unsigned int facet = 0;      ///< the contactor
+  unsigned int target = 0;     ///< index of the body or of the obstacle
+  unsigned int neighbours = 0; ///< bodies only: index into the neighbour list
+  double area = 0.;            ///< A_q: undeformed area the point counts with [m²; m in 2-D]
+  double stiffness = 0.;       ///< k_A [Pa/m]
+  double offset = 0.;          ///< λ/k_A of the point's multiplier, added to its depth [m]
+  double damping = 0.;         ///< 2ξ√(k_A m_A) [Pa s/m]
+  LocalPoint<dim> xi;          ///< the point on the contactor
   std::array<double, Facet<dim>::max_n_nodes> shape{}; ///< the contactor's shape functions there
-  double area = 0.;               ///< A_q: undeformed area the point counts with [m²; m in 2-D]
-  double stiffness = 0.;          ///< k_A [Pa/m]
-  double offset = 0.;             ///< λ/k_A of the point's multiplier, added to its depth [m]
-  double damping = 0.;            ///< 2ξ√(k_A m_A) [Pa s/m]
-  double distance_when_made = 0.; ///< of the point from the target's surface [m]
 
   template <typename Archive>
   void serialize(Archive &archive, unsigned int /*version*/)
   {
-    archive &facet &target &neighbours &xi &shape &area &stiffness &offset &damping &distance_when_made;
+    archive &facet &target &neighbours &xi &shape &area &stiffness &offset &damping;
   }
 };
 
@@ -50,17 +49,19 @@ template <int dim>
 struct PairFoot
 {
   double depth = -std::numeric_limits<double>::infinity(); ///< −∞ where the target is out of reach
-  SpatialVector<dim> gap;                                  ///< g = x − y, with |g| = |depth|
   SpatialVector<dim> normal;                               ///< outward unit normal of the target
   SpatialVector<dim> position;                             ///< x
   unsigned int facet = 0;                                  ///< bodies only: the target's closest facet, …
-  ClosestPoint<dim> closest;                               ///< … the foot on it …
+  LocalPoint<dim> xi;                                      ///< … the foot on it …
   std::array<double, Facet<dim>::max_n_nodes> shape{};     ///< … and its shape functions there
+
+  /// g = x − y
+  SpatialVector<dim> gap() const { return -depth * normal; }
 
   template <typename Archive>
   void serialize(Archive &archive, unsigned int /*version*/)
   {
-    archive &depth &gap &normal &position &facet &closest &shape;
+    archive &depth &normal &position &facet &xi &shape;
   }
 };
 
@@ -70,6 +71,8 @@ template <int dim>
 struct PairStencil
 {
   static constexpr unsigned int max_n_nodes = 2 * Facet<dim>::max_n_nodes;
+
+  PairStencil() {} // leaves the arrays as they are: to clear them costs more than to use them
 
   unsigned int n_nodes = 0;
   std::array<unsigned int, max_n_nodes> node;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
+#include "signorini/contact/potential/body_feet.h"
 #include "signorini/contact/potential/contact_measures.h"
 #include "signorini/contact/potential/obstacle_places.h"
 #include "signorini/contact/potential/pair_list.h"
@@ -162,7 +163,7 @@ public:
   /// ∇∇depth of the obstacle of a pair, at its point [1/m].
   const SpatialTensor<dim> &obstacle_hessian(const NearPair &near) const
   {
-    return obstacle_hessians[near.index - body_feet.size()];
+    return obstacle_hessians[near.index - body_feet.all().size()];
   }
 
   /// Whether depths are linear: from linearize() to the next evaluation.
@@ -176,26 +177,33 @@ public:
   template <typename Visit>
   void for_each_overlap_above(double least, const Visit &visit) const
   {
-    const auto visit_all = [&](const auto &list, const auto &feet, std::size_t first, bool has_target_facet)
+    const std::vector<PairFoot<dim>> &feet = body_feet.all();
+    const auto visit_pair = [&](std::size_t index)
     {
-      for (std::size_t i = 0; i < feet.size(); ++i)
-      {
-        if (!(feet[i].depth + list[i].offset > least))
-          continue;
-        NearPair near{list[i],
-                      feet[i],
-                      surface.facets[list[i].facet],
-                      has_target_facet ? &surface.facets[feet[i].facet] : nullptr,
-                      first + i,
-                      {}};
-        near.stencil.add(near.contactor, list[i].shape, 1.);
-        if (has_target_facet)
-          near.stencil.add(*near.target, feet[i].shape, -1.);
-        visit(near);
-      }
+      const bool is_of_bodies = index < feet.size();
+      const std::size_t i = is_of_bodies ? index : index - feet.size();
+      const ContactPair<dim> &pair = (is_of_bodies ? pairs.body_pairs() : pairs.obstacle_pairs())[i];
+      const PairFoot<dim> &foot = (is_of_bodies ? feet : obstacle_feet)[i];
+      if (!(foot.depth + pair.offset > least))
+        return;
+      NearPair near{
+          pair,  foot, surface.facets[pair.facet], is_of_bodies ? &surface.facets[foot.facet] : nullptr,
+          index, {}};
+      near.stencil.add(near.contactor, pair.shape, 1.);
+      if (is_of_bodies)
+        near.stencil.add(*near.target, foot.shape, -1.);
+      visit(near);
     };
-    visit_all(pairs.body_pairs(), body_feet, 0, true);
-    visit_all(pairs.obstacle_pairs(), obstacle_feet, body_feet.size(), false);
+    if (!is_linear())
+      find_feet(std::max(0., -least));
+    if (!is_linear() && least >= 0.)
+      for (const unsigned int i : body_feet.touching())
+        visit_pair(i);
+    else
+      for (std::size_t i = 0; i < feet.size(); ++i)
+        visit_pair(i);
+    for (std::size_t i = 0; i < obstacle_feet.size(); ++i)
+      visit_pair(feet.size() + i);
   }
 
   /// k_A d and the damping at these velocities of the nodes together, ≥ 0 [Pa].
@@ -219,11 +227,11 @@ public:
 private:
   using ObstacleFoot = typename Obstacle<dim>::Foot;
 
-  void evaluate_body_pairs();
+  /// Lets the feet on bodies be those of other positions.
+  void move_to(const Positions &positions);
+  /// Those less than `gap` outside of their targets.
+  void find_feet(double gap) const { body_feet.find_within(gap, evaluated_positions, surface, pairs); }
   void evaluate_obstacle_pairs();
-  PairFoot<dim> evaluate_body_pair(const ContactPair<dim> &pair, double motion) const;
-  /// The foot on the body, no farther than `cutoff`, where the nodes are at those positions.
-  PairFoot<dim> find_pair_foot(const ContactPair<dim> &pair, const Positions &at, double cutoff) const;
   double depth_rate(const NearPair &near, const std::vector<SpatialVector<dim>> &velocities) const;
   double damping_pressure(const NearPair &near, double depth_rate) const;
   void add_to_measures(const NearPair &near, ContactMeasures<dim> &measures) const;
@@ -238,7 +246,7 @@ private:
   bool is_evaluated = false;
 
   Positions evaluated_positions;
-  std::vector<PairFoot<dim>> body_feet;              ///< one a body pair
+  mutable BodyFeet<dim> body_feet;                   ///< found as far as they were asked for
   std::vector<PairFoot<dim>> obstacle_feet;          ///< one an obstacle pair
   std::vector<SpatialTensor<dim>> obstacle_hessians; ///< of the depth, one an obstacle pair
 

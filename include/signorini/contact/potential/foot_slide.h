@@ -39,8 +39,8 @@ template <int dim>
 FootSlide<dim> find_foot_slide(const PairFoot<dim> &foot, const PairStencil<dim> &stencil,
                                const FacetNodes<dim> &target);
 
-/// Whether the normal of a foot is that of its facet: inside the facet, or too close to it for the gap to
-/// have a direction. Else it is the gap's.
+/// Whether the normal of the foot at `xi`, that far from its point [m], is that of its facet: inside the
+/// facet, or too close to it for the gap to have a direction. Else it is the gap's.
 template <int dim>
-bool has_normal_of_facet(const Facet<dim> &target, const ClosestPoint<dim> &foot);
+bool has_normal_of_facet(const Facet<dim> &target, const LocalPoint<dim> &xi, double distance);
 } // namespace signorini::contact

@@ -54,8 +54,14 @@ public:
   const PotentialSettings &settings() const { return settings_; }
   double skin() const { return skin_; } ///< [m]
 
-  /// A bound of how much the distance between any point and any surface changed since the last renewal [m].
-  double bound_motion(const Positions &positions) const;
+  /// By how much a point of a facet may move at most where no node moves by more than one.
+  double largest_motion_factor() const { return largest_motion_factor_; }
+
+  /// Of all pairs of bodies [m].
+  double largest_offset() const;
+
+  /// Of all pairs [Pa/m].
+  double largest_stiffness() const { return largest_stiffness_; }
 
   /// Changes α, and with it k_A and the damping of all pairs.
   void set_penalty_factor(double penalty_factor);
@@ -79,7 +85,7 @@ public:
   {
     Positions shifts = shifts_of_obstacles;
     archive &settings_.penalty_factor &shifts &shifts_at_search &neighbour_list;
-    archive &body_pairs_ &obstacle_pairs_ &n_renewals_ &positions_at_renewal;
+    archive &body_pairs_ &obstacle_pairs_ &n_renewals_ &largest_stiffness_;
     if (Archive::is_loading::value)
       move_obstacles(shifts);
   }
@@ -125,7 +131,7 @@ private:
   PotentialSettings settings_;
   double skin_;
   std::vector<double> reach_;
-  double largest_motion_factor = 1.;
+  double largest_motion_factor_ = 1.;
   std::array<FacetPoints, 4> gauss_points; ///< of the kinds of facet that there are, at their index()
   NeighbourList<dim> neighbour_list;
 
@@ -133,17 +139,18 @@ private:
   Pairs body_pairs_;
   Pairs obstacle_pairs_;
   unsigned int n_renewals_ = 0;
-  Positions positions_at_renewal;
+  double largest_stiffness_ = 0.;
 };
 
 /// x(ξ) = Σ_a shape_a x_a on a facet.
 template <int dim>
-SpatialVector<dim> interpolate(const Facet<dim> &facet,
-                               const std::array<double, Facet<dim>::max_n_nodes> &shape,
-                               const std::vector<SpatialVector<dim>> &nodal_values)
+inline SpatialVector<dim> interpolate(const Facet<dim> &facet,
+                                      const std::array<double, Facet<dim>::max_n_nodes> &shape,
+                                      const std::vector<SpatialVector<dim>> &nodal_values)
 {
   SpatialVector<dim> value = SpatialVector<dim>::Zero();
-  for (unsigned int a = 0; a < facet.n_nodes(); ++a)
+  const unsigned int n_nodes = facet.n_nodes();
+  for (unsigned int a = 0; a < n_nodes; ++a)
     value += shape[a] * nodal_values[facet.nodes[a]];
   return value;
 }

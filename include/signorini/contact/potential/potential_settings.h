@@ -21,6 +21,7 @@ struct PotentialSettings
   Integration integration = Integration::face_quadrature;
   unsigned int n_quadrature_points = 3; ///< a direction, on a face or a segment
   double skin_over_thickness = 0.5;     ///< skin of the neighbour list over the smallest layer thickness, > 0
+  bool meets_bodies = true;             ///< false: obstacles only
   std::vector<std::pair<unsigned int, unsigned int>> excluded_body_pairs;     ///< in either order
   std::vector<std::pair<unsigned int, unsigned int>> excluded_obstacle_pairs; ///< (body, obstacle)
   std::vector<unsigned int> self_contact; ///< bodies that may touch themselves

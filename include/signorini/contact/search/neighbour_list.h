@@ -30,8 +30,8 @@ public:
 
   /// `reach` [m], one a facet: how deep or far a point of that facet may see. `skin` > 0 [m].
   /// `is_allowed_pair` of a body and itself: whether it may touch itself; what of it is left out of that is
-  /// settled here, on the undeformed surface (find_untouchable_facets). `surface` must outlive this object.
-  /// Throws std::invalid_argument if these do not fit together.
+  /// settled here, on the undeformed surface (find_untouchable_facets). Without it nothing may touch.
+  /// `surface` must outlive this object. Throws std::invalid_argument if these do not fit together.
   NeighbourList(const ContactSurface<dim> &contact_surface, std::vector<double> facet_reach,
                 double skin_thickness, IsAllowedPair is_allowed_pair);
 

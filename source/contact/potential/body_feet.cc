@@ -1,0 +1,350 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "signorini/contact/potential/body_feet.h"
+
+#include "signorini/contact/potential/foot_slide.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace signorini::contact
+{
+namespace
+{
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// The shape functions of a facet of degree 1 in 3-D.
+std::array<double, 9> evaluate_linear_shape(const FacetType type, const LocalPoint<3> &xi)
+{
+  const double a = 1. - xi[0], b = 1. - xi[1];
+  if (type == FacetType::triangle)
+    return {a - xi[1], xi[0], xi[1]};
+  return {a * b, xi[0] * b, a * xi[1], xi[0] * xi[1]};
+}
+
+/// t_0 × t_1 of a facet of degree 1, not scaled.
+SpatialVector<3> linear_normal(const Facet<3> &facet, const LocalPoint<3> &xi,
+                               const std::vector<SpatialVector<3>> &positions)
+{
+  const auto &node = facet.nodes;
+  const SpatialVector<3> &origin = positions[node[0]];
+  SpatialVector<3> first = positions[node[1]] - origin, second = positions[node[2]] - origin;
+  if (facet.type == FacetType::tensor_product)
+  {
+    const SpatialVector<3> twist = positions[node[3]] - positions[node[1]] - second;
+    first += xi[1] * twist;
+    second += xi[0] * twist;
+  }
+  return first.cross(second);
+}
+
+/// Whether a plane parts the facet from all points within a distance of `x`: the one across the way to the
+/// middle of its corners. A box with sides askew to the facets leaves no such room.
+template <int dim>
+bool is_beyond(const Facet<dim> &facet, const SpatialVector<dim> &x, double distance,
+               const std::vector<SpatialVector<dim>> &positions)
+{
+  if (facet.degree > 1)
+    return false;
+  SpatialVector<dim> direction = -double(facet.n_nodes()) * x;
+  for (unsigned int a = 0; a < facet.n_nodes(); ++a)
+    direction += positions[facet.nodes[a]];
+  const double least = distance * direction.norm();
+  for (unsigned int a = 0; a < facet.n_nodes(); ++a)
+    if (!((positions[facet.nodes[a]] - x).dot(direction) > least))
+      return false;
+  return true;
+}
+} // namespace
+
+template <int dim>
+void BodyFeet<dim>::forget(const PairList<dim> &pair_list)
+{
+  feet.resize(pair_list.body_pairs().size());
+  sleeps_until.assign(feet.size(), -infinity);
+  found_within = -1.;
+}
+
+template <int dim>
+void BodyFeet<dim>::note_motion(double distance)
+{
+  constexpr double round_off = 1e-12;
+  way += 2. * (1. + round_off) * distance;
+  found_within = -1.;
+}
+
+template <int dim>
+void BodyFeet<dim>::note_found(unsigned int pair)
+{
+  // Facets that are no candidates may be as near as the reach.
+  const double reach = pairs->reach(pairs->body_pairs()[pair].facet);
+  double &depth = feet[pair].depth;
+  sleeps_until[pair] = way + std::clamp(-depth, 0., reach);
+  if (depth <= -pairs->skin() || depth > reach)
+    depth = -infinity;
+}
+
+template <int dim>
+void BodyFeet<dim>::find_awake(double gap)
+{
+  const double slack = gap + pairs->largest_offset() + 1e-9 * pairs->skin();
+  awake.clear();
+  for (unsigned int i = 0; i < sleeps_until.size(); ++i)
+    if (!(sleeps_until[i] - way > slack))
+      awake.push_back(i);
+}
+
+template <int dim>
+void BodyFeet<dim>::find_within(double gap, const Positions &positions,
+                                const ContactSurface<dim> &contact_surface, const PairList<dim> &pair_list)
+{
+  if (gap <= found_within)
+    return;
+  surface = &contact_surface;
+  pairs = &pair_list;
+  found_within = gap;
+  ++date;
+  boxes.resize(surface->facets.size());
+  find_awake(gap);
+  for (std::size_t begin = 0; begin < awake.size(); begin += chunk.n)
+  {
+    chunk.n = static_cast<unsigned int>(std::min<std::size_t>(chunk_size, awake.size() - begin));
+    std::copy_n(awake.begin() + static_cast<std::ptrdiff_t>(begin), chunk.n, chunk.pair.begin());
+    find_chunk(positions);
+  }
+  touching_.clear();
+  for (const unsigned int i : awake)
+    if (feet[i].depth + pairs->body_pairs()[i].offset > 0.)
+      touching_.push_back(i);
+}
+
+template <int dim>
+void BodyFeet<dim>::find_chunk(const Positions &positions)
+{
+  const auto &list = pairs->body_pairs();
+  Selection is_known{};
+  for (unsigned int k = 0; k < chunk.n; ++k)
+    is_known[k] = sleeps_until[chunk.pair[k]] > -infinity;
+  chunk.is_found = find_inner_feet_of_chunk(is_known, positions);
+  for (unsigned int k = 0; k < chunk.n; ++k)
+    chunk.is_found[k] &= faces_target(chunk.pair[k], positions);
+  for (unsigned int begin = 0, end = 0; begin < chunk.n; begin = end)
+  {
+    const unsigned int neighbours = list[chunk.pair[begin]].neighbours;
+    while (end < chunk.n && list[chunk.pair[end]].neighbours == neighbours)
+      ++end;
+    reject_where_others_are_near(begin, end, positions);
+  }
+  Selection is_searched{};
+  for (unsigned int k = 0; k < chunk.n; ++k)
+    if (!chunk.is_found[k])
+    {
+      find_by_search(chunk.pair[k], positions);
+      is_searched[k] = std::isfinite(feet[chunk.pair[k]].depth);
+    }
+  // By the same arithmetic as all others, so that no digit depends on what was known before.
+  find_inner_feet_of_chunk(is_searched, positions);
+  for (unsigned int k = 0; k < chunk.n; ++k)
+    note_found(chunk.pair[k]);
+}
+
+template <int dim>
+auto BodyFeet<dim>::find_inner_feet_of_chunk(const Selection &is_asked, const Positions &positions)
+    -> Selection
+{
+  Selection is_found{};
+  if constexpr (dim == 3)
+  {
+    constexpr unsigned int size = InnerFeetBatch::size;
+    InnerFeetBatch batch{};
+    for (unsigned int k = 0; k < chunk.n;)
+    {
+      std::array<unsigned int, size> place;
+      unsigned int n = 0;
+      for (; k < chunk.n && n < size; ++k)
+        if (is_asked[k] && surface->facets[feet[chunk.pair[k]].facet].degree == 1)
+        {
+          put_into_batch(chunk.pair[k], n, positions, batch);
+          place[n++] = k;
+        }
+      if (n == 0)
+        break;
+      find_inner_feet(batch);
+      for (unsigned int i = 0; i < n; ++i)
+        if ((is_found[place[i]] = batch.is_inner[i] != 0.))
+          take_from_batch(i, batch, feet[chunk.pair[place[i]]]);
+    }
+  }
+  return is_found;
+}
+
+template <int dim>
+void BodyFeet<dim>::put_into_batch(unsigned int pair, unsigned int i, const Positions &positions,
+                                   InnerFeetBatch &batch)
+{
+  if constexpr (dim == 3)
+  {
+    const ContactPair<dim> &of_foot = pairs->body_pairs()[pair];
+    PairFoot<dim> &foot = feet[pair];
+    foot.position = interpolate(surface->facets[of_foot.facet], of_foot.shape, positions);
+    const Facet<dim> &target = surface->facets[foot.facet];
+    const bool is_triangle = target.type == FacetType::triangle;
+    for (unsigned int d = 0; d < dim; ++d)
+    {
+      for (unsigned int a = 0; a < 3; ++a)
+        batch.node[a][d][i] = positions[target.nodes[a]][d];
+      batch.node[3][d][i] = is_triangle ? batch.node[1][d][i] + batch.node[2][d][i] - batch.node[0][d][i]
+                                        : positions[target.nodes[3]][d];
+      batch.point[d][i] = foot.position[d];
+    }
+    batch.rim[i] = is_triangle ? 0. : 2.;
+  }
+}
+
+template <int dim>
+void BodyFeet<dim>::take_from_batch(unsigned int i, const InnerFeetBatch &batch, PairFoot<dim> &foot)
+{
+  if constexpr (dim == 3)
+  {
+    foot.depth = batch.depth[i];
+    for (unsigned int d = 0; d < dim; ++d)
+      foot.normal[d] = batch.normal[d][i];
+    for (unsigned int a = 0; a < 2; ++a)
+      foot.xi[a] = .5 * (1. + batch.s[a][i]);
+    const auto shape = evaluate_linear_shape(surface->facets[foot.facet].type, foot.xi);
+    std::copy_n(shape.begin(), 4, foot.shape.begin());
+  }
+}
+
+/// Below the surface, and not clearly against it, a point may belong to the other flank of a spike.
+template <int dim>
+bool BodyFeet<dim>::faces_target(unsigned int pair, const Positions &positions) const
+{
+  const PairFoot<dim> &foot = feet[pair];
+  if (!(foot.depth > 0.))
+    return true;
+  if constexpr (dim == 3)
+  {
+    const ContactPair<dim> &of_foot = pairs->body_pairs()[pair];
+    const Facet<dim> &contactor = surface->facets[of_foot.facet];
+    return contactor.degree == 1 && linear_normal(contactor, of_foot.xi, positions).dot(foot.normal) < 0.;
+  }
+  return false;
+}
+
+template <int dim>
+auto BodyFeet<dim>::box_of(unsigned int facet, const Positions &positions) -> const DatedBox &
+{
+  DatedBox &box = boxes[facet];
+  if (box.date == date)
+    return box;
+  const Facet<dim> &of_box = surface->facets[facet];
+  box.low = box.high = positions[of_box.nodes[0]];
+  for (unsigned int a = 1; a < of_box.n_nodes(); ++a)
+  {
+    box.low = box.low.cwiseMin(positions[of_box.nodes[a]]);
+    box.high = box.high.cwiseMax(positions[of_box.nodes[a]]);
+  }
+  if (of_box.degree > 1)
+  {
+    const SpatialVector<dim> bulge = .5 * (lebesgue_constant(of_box) - 1.) * (box.high - box.low);
+    box.low -= bulge;
+    box.high += bulge;
+  }
+  box.date = date;
+  return box;
+}
+
+template <int dim>
+void BodyFeet<dim>::reject_where_others_are_near(unsigned int begin, unsigned int end,
+                                                 const Positions &positions)
+{
+  constexpr double round_off = 1e-9;
+  const double slack = round_off * pairs->skin();
+  SpatialVector<dim> low = SpatialVector<dim>::Constant(infinity), high = -low;
+  double farthest = 0.;
+  for (unsigned int k = begin; k < end; ++k)
+    if (chunk.is_found[k])
+    {
+      const PairFoot<dim> &foot = feet[chunk.pair[k]];
+      low = low.cwiseMin(foot.position);
+      high = high.cwiseMax(foot.position);
+      farthest = std::max(farthest, std::abs(foot.depth) + slack);
+    }
+  if (low[0] > high[0])
+    return;
+  const FacetNeighbours &found = pairs->neighbours()[pairs->body_pairs()[chunk.pair[begin]].neighbours];
+  for (const unsigned int candidate : found.candidates)
+  {
+    const DatedBox &box = box_of(candidate, positions);
+    if ((box.low - high).cwiseMax(low - box.high).cwiseMax(0.).squaredNorm() > farthest * farthest)
+      continue;
+    for (unsigned int k = begin; k < end; ++k)
+    {
+      const PairFoot<dim> &foot = feet[chunk.pair[k]];
+      if (!chunk.is_found[k] || foot.facet == candidate)
+        continue;
+      const double distance = std::abs(foot.depth) + slack;
+      chunk.is_found[k] =
+          (box.low - foot.position).cwiseMax(foot.position - box.high).cwiseMax(0.).squaredNorm() >
+              distance * distance ||
+          is_beyond(surface->facets[candidate], foot.position, distance, positions) ||
+          find_closest_point(gather_nodes(surface->facets[candidate], positions), foot.position).distance >
+              distance;
+    }
+  }
+}
+
+template <int dim>
+void BodyFeet<dim>::find_by_search(unsigned int i, const Positions &positions)
+{
+  const ContactPair<dim> &pair = pairs->body_pairs()[i];
+  PairFoot<dim> &foot = feet[i];
+  double cutoff = infinity;
+  if (sleeps_until[i] > -infinity)
+  {
+    // No farther than the place where the foot was last.
+    const SpatialVector<dim> x = interpolate(surface->facets[pair.facet], pair.shape, positions);
+    const FacetShape<dim> shape = evaluate_facet_shape(surface->facets[foot.facet], foot.xi);
+    cutoff = (1. + 1e-6) * (x - interpolate(surface->facets[foot.facet], shape.value, positions)).norm() +
+             1e-9 * pairs->skin();
+  }
+  foot = find_pair_foot(*surface, *pairs, pair, positions, cutoff);
+}
+
+template <int dim>
+PairFoot<dim> find_pair_foot(const ContactSurface<dim> &surface, const PairList<dim> &pairs,
+                             const ContactPair<dim> &pair, const std::vector<SpatialVector<dim>> &at,
+                             double cutoff)
+{
+  PairFoot<dim> result;
+  result.position = interpolate(surface.facets[pair.facet], pair.shape, at);
+  const SurfaceFoot<dim> foot = pairs.find_body_foot(pair, at, result.position, cutoff);
+  if (!std::isfinite(foot.depth))
+    return result;
+  result.depth = foot.depth;
+
+  const Facet<dim> &target = surface.facets[foot.facet];
+  result.facet = foot.facet;
+  result.xi = foot.closest.xi;
+  result.shape = evaluate_facet_shape(target, foot.closest.xi).value;
+  const SpatialVector<dim> gap = result.position - foot.closest.position;
+  if (!has_normal_of_facet(target, foot.closest.xi, foot.closest.distance))
+  {
+    result.normal = gap / -foot.depth;
+    return result;
+  }
+  // Inside a facet, or too close for the gap to have a direction, the facet's normal is the direction: it has
+  // none of the round-off that the gap takes from coordinates many orders larger than itself.
+  result.normal = evaluate_facet_frame(gather_nodes(target, at), foot.closest.xi).area_normal.normalized();
+  result.depth = -gap.dot(result.normal);
+  return result;
+}
+
+template class BodyFeet<2>;
+template class BodyFeet<3>;
+template PairFoot<2> find_pair_foot(const ContactSurface<2> &, const PairList<2> &, const ContactPair<2> &,
+                                    const std::vector<SpatialVector<2>> &, double);
+template PairFoot<3> find_pair_foot(const ContactSurface<3> &, const PairList<3> &, const ContactPair<3> &,
+                                    const std::vector<SpatialVector<3>> &, double);
+} // namespace signorini::contact
