@@ -221,11 +221,11 @@ void Simulation<dim>::check_obstacle_sizes() const
           is_pair_excluded(*parameters.contact, scene.body_names[body], obstacle->name()))
         continue;
       const auto &facets = surface_map->surface().facets;
-      if (std::none_of(facets.begin(), facets.end(),
-                       [&](const Facet<dim> &facet) {
-                         return facet.body == body &&
-                                unseen_depth(obstacle->room(), facet) < 0.25 * facet.room;
-                       }))
+      const bool is_fine_enough = std::any_of(
+          facets.begin(), facets.end(),
+          [&](const Facet<dim> &facet)
+          { return facet.body == body && unseen_depth(obstacle->room(), facet) < 0.25 * facet.room; });
+      if (dealii::Utilities::MPI::max(static_cast<int>(is_fine_enough), communicator) == 0)
         throw InputError(
             Complaint(
                 fmt::format("obstacle '{}' is too small for the faces of body '{}': it could slip between "
