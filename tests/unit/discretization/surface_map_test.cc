@@ -283,10 +283,9 @@ TYPED_TEST(SurfaceMapsOnRanks, FacetsThatAreNearAreHeldAndNoOthers)
     }
     EXPECT_EQ(held, expected);
     EXPECT_EQ(held.size(), facets.size() - shared.map.n_own_facets()) << "each once";
-    if (gap > SharedBoxes<dim, TypeParam::degree>::margin)
-      EXPECT_TRUE(held.empty());
-    else if (all.size() > 1)
-      EXPECT_GT(dealii::Utilities::MPI::sum(held.size(), MPI_COMM_WORLD), 0u);
+    const std::size_t n_held = dealii::Utilities::MPI::sum(held.size(), MPI_COMM_WORLD);
+    const bool is_near = gap < SharedBoxes<dim, TypeParam::degree>::margin;
+    EXPECT_EQ(n_held > 0, is_near && all.size() > 1);
   }
 }
 
@@ -331,8 +330,10 @@ TYPED_TEST(SurfaceMapsOnRanks, WhatNodesHaveIsCombinedOverRanks)
     EXPECT_LT(ranks[node], n_ranks);
     largest = std::max(largest, ones[node]);
     if (ones[node] == n_ranks)
+    {
       EXPECT_EQ(ranks[node], n_ranks - 1.) << "the last rank holds it, too";
+    }
   }
-  EXPECT_EQ(dealii::Utilities::MPI::max(largest, MPI_COMM_WORLD), n_ranks) << "nodes between ranks";
+  EXPECT_EQ(dealii::Utilities::MPI::max(largest, MPI_COMM_WORLD) > 1., n_ranks > 1) << "nodes between ranks";
 }
 } // namespace
