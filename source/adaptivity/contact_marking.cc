@@ -10,7 +10,7 @@ namespace signorini
 {
 namespace
 {
-constexpr int not_concerned = -1;
+constexpr double not_concerned = -1.;
 
 template <int dim>
 using Cell = typename dealii::DoFHandler<dim>::active_cell_iterator;
@@ -45,26 +45,38 @@ double largest_pressure(const BoundaryFace<dim> &face, const NodalPressures<dim>
   return largest;
 }
 
-/// Raises the levels of facets that share a node until they are equal.
+/// Highest level of the facets of all ranks at each node (collective).
 template <int dim>
-void level_out(const ContactSurface<dim> &surface, std::vector<int> &levels)
+std::vector<double> find_nodal_levels(const SurfaceMap<dim> &map, const std::vector<double> &levels)
 {
-  std::vector<int> of_node(surface.n_nodes(), not_concerned);
+  const ContactSurface<dim> &surface = map.surface();
+  std::vector<double> of_node(surface.n_nodes(), not_concerned);
+  for (unsigned int f = 0; f < levels.size(); ++f)
+    for (unsigned int i = 0; i < surface.facets[f].n_nodes(); ++i)
+    {
+      double &level = of_node[surface.facets[f].nodes[i]];
+      level = std::max(level, levels[f]);
+    }
+  map.maximize(of_node);
+  return of_node;
+}
+
+/// Raises the levels of facets that share a node until they are equal (collective).
+template <int dim>
+void level_out(const SurfaceMap<dim> &map, const MPI_Comm &communicator, std::vector<double> &levels)
+{
   for (bool has_changed = true; has_changed;)
   {
+    const std::vector<double> of_node = find_nodal_levels(map, levels);
     has_changed = false;
     for (unsigned int f = 0; f < levels.size(); ++f)
-    {
-      if (levels[f] == not_concerned)
-        continue;
-      const auto &nodes = surface.facets[f].nodes;
-      int highest = levels[f];
-      for (unsigned int i = 0; i < surface.facets[f].n_nodes(); ++i)
-        highest = std::max(highest, of_node[nodes[i]]);
-      levels[f] = highest;
-      for (unsigned int i = 0; i < surface.facets[f].n_nodes(); ++i)
-        has_changed |= std::exchange(of_node[nodes[i]], highest) != highest;
-    }
+      if (levels[f] != not_concerned)
+        for (unsigned int i = 0; i < map.surface().facets[f].n_nodes(); ++i)
+        {
+          const double highest = std::max(levels[f], of_node[map.surface().facets[f].nodes[i]]);
+          has_changed |= std::exchange(levels[f], highest) != highest;
+        }
+    has_changed = dealii::Utilities::MPI::max(static_cast<int>(has_changed), communicator) == 1;
   }
 }
 } // namespace
@@ -88,7 +100,7 @@ void level_curved_contact(const std::vector<BoundaryFace<dim>> &all_faces,
     peak = std::max(peak, largest_pressure(face, pressures));
   peak = dealii::Utilities::MPI::max(peak, discretization.communicator());
 
-  std::vector<int> levels(surface.facets.size(), not_concerned);
+  std::vector<double> levels(surface.facets.size(), not_concerned);
   for (const BoundaryFace<dim> &face : faces)
   {
     const Facet<dim> &facet = surface.facets[face.facet];
@@ -97,26 +109,16 @@ void level_curved_contact(const std::vector<BoundaryFace<dim>> &all_faces,
     if (largest_pressure(face, pressures) > 0. && kink > tolerance * peak)
       levels[face.facet] = level_to_be<dim>(cells[face.cell]);
   }
-  const auto share = [&]()
-  {
-    MPI_Allreduce(MPI_IN_PLACE, levels.data(), static_cast<int>(levels.size()), MPI_INT, MPI_MAX,
-                  discretization.communicator());
-  };
-  share();
   // On the next mesh contact may reach a little farther.
-  std::vector<bool> is_concerned(surface.n_nodes(), false);
-  for (unsigned int f = 0; f < levels.size(); ++f)
-    for (unsigned int i = 0; i < surface.facets[f].n_nodes() && levels[f] != not_concerned; ++i)
-      is_concerned[surface.facets[f].nodes[i]] = true;
+  const std::vector<double> of_node = find_nodal_levels(map, levels);
   for (const BoundaryFace<dim> &face : faces)
   {
     const auto &nodes = surface.facets[face.facet].nodes;
     if (std::any_of(nodes.begin(), nodes.begin() + surface.facets[face.facet].n_nodes(),
-                    [&](unsigned int node) { return is_concerned[node]; }))
+                    [&](unsigned int node) { return of_node[node] != not_concerned; }))
       levels[face.facet] = level_to_be<dim>(cells[face.cell]);
   }
-  share();
-  level_out(surface, levels);
+  level_out(map, discretization.communicator(), levels);
   for (const BoundaryFace<dim> &face : faces)
     if (levels[face.facet] > level_to_be<dim>(cells[face.cell]))
     {

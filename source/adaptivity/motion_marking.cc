@@ -2,6 +2,7 @@
 #include "signorini/adaptivity/motion_marking.h"
 
 #include "signorini/adaptivity/error_classes.h"
+#include "signorini/contact/coupling/facet_exchange.h"
 #include "signorini/contact/search/coming_contact.h"
 #include "signorini/parameters/contact_parameters.h"
 
@@ -23,6 +24,46 @@ std::vector<unsigned int> find_extra_levels(const Discretization<dim> &discretiz
     extra_levels[own_cell++] = cell->level() - file_levels.level_at(cell);
   return extra_levels;
 }
+
+/// Means over the facets of all ranks.
+template <int dim>
+std::vector<SpatialVector<dim>> find_body_velocities(const ContactSurface<dim> &surface,
+                                                     const contact::StraightMotion<dim> &motion,
+                                                     const MPI_Comm &communicator)
+{
+  std::vector<SpatialVector<dim>> velocities(surface.n_bodies, SpatialVector<dim>::Zero());
+  std::vector<double> n_facets(surface.n_bodies, 0.);
+  for (const Facet<dim> &facet : surface.facets)
+  {
+    velocities[facet.body] += motion.mean_velocity(facet);
+    ++n_facets[facet.body];
+  }
+  MPI_Allreduce(MPI_IN_PLACE, velocities.data(), static_cast<int>(dim * velocities.size()), MPI_DOUBLE,
+                MPI_SUM, communicator);
+  dealii::Utilities::MPI::sum(n_facets, communicator, n_facets);
+  for (unsigned int body = 0; body < velocities.size(); ++body)
+    velocities[body] /= std::max(n_facets[body], 1.);
+  return velocities;
+}
+
+/// Lets `near` hold all facets that may come near own ones while the nodes go on as they move now.
+template <int dim>
+void hold_coming_facets(const contact::StraightMotion<dim> &motion, const std::vector<double> &margins,
+                        const std::function<bool(unsigned int, unsigned int)> &may_touch,
+                        const MPI_Comm &communicator, SurfaceMap<dim> &near)
+{
+  // Seen by one at rest boxes are no smaller than by one who moves along.
+  std::vector<contact::BoundingBox<dim>> boxes;
+  std::vector<contact::FacetQuery<dim>> queries;
+  for (unsigned int f = 0; f < near.n_own_facets(); ++f)
+  {
+    const Facet<dim> &facet = near.surface().facets[f];
+    boxes.push_back(motion.swept_box(facet, SpatialVector<dim>::Zero()));
+    const SpatialVector<dim> margin = SpatialVector<dim>::Constant(margins[f]);
+    queries.push_back({{boxes[f].min() - margin, boxes[f].max() + margin}, facet.body});
+  }
+  hold_facets<dim>(queries, boxes, may_touch, communicator, near);
+}
 } // namespace
 
 template <int dim>
@@ -42,6 +83,7 @@ find_cells_near_contact(const Scene<dim> &scene, const ContactParameters &contac
 
   const contact::StraightMotion<dim> motion{map.positions(state.displacement), map.gather(state.velocity),
                                             duration};
+  const MPI_Comm &communicator = discretization.communicator();
   const auto may_touch = [&](unsigned int body, const std::string &other)
   { return !is_pair_excluded(contact, scene.body_names[body], other); };
   std::vector<bool> is_near(surface.facets.size(), false);
@@ -50,9 +92,13 @@ find_cells_near_contact(const Scene<dim> &scene, const ContactParameters &contac
     for (const unsigned int f : facets)
       is_near[f] = true;
   };
-  note(contact::find_coming_contact<dim>(surface, motion, margins,
-                                         [&](unsigned int body, unsigned int other)
-                                         { return may_touch(body, scene.body_names[other]); }));
+  const auto may_bodies_touch = [&](unsigned int body, unsigned int other)
+  { return may_touch(body, scene.body_names[other]); };
+  SurfaceMap<dim> near = map;
+  hold_coming_facets<dim>(motion, margins, may_bodies_touch, communicator, near);
+  note(contact::find_coming_contact<dim>(
+      near.surface(), {near.positions(state.displacement), near.gather(state.velocity), duration}, margins,
+      find_body_velocities<dim>(surface, motion, communicator), may_bodies_touch));
   for (unsigned int i = 0; i < scene.obstacles.size(); ++i)
   {
     const Obstacle<dim> &obstacle = *scene.obstacles[i];

@@ -105,7 +105,7 @@ VolumeMap<dim>::VolumeMap(const Scene<dim> &scene, const Discretization<dim> &th
   }
   n_all_cells = static_cast<unsigned int>(cells.size());
   contact_volume.n_bodies = scene.n_bodies();
-  contact_volume.origin = move_to_middle(contact_volume.reference_positions);
+  contact_volume.origin = move_to_middle(contact_volume.reference_positions, communicator);
   add_simplices(cells, contact_volume);
   compute_heights(contact_volume);
   this->set_nodes(std::move(all_node_dofs));

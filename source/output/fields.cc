@@ -134,12 +134,11 @@ Fields<dim>::number_contact_fields_of(const MeshPart<dim> &part) const
     }
     ++scalar_cell;
   }
-  const dealii::IndexSet &owned = fields->dof_handler.locally_owned_dofs();
   for (unsigned int node = 0; node < map->surface().n_nodes(); ++node)
   {
     const auto scalar = scalar_dofs.find(map->node_dofs(node)[0]);
-    if (scalar != scalar_dofs.end() && owned.is_element(scalar->second))
-      fields->owned.emplace_back(node, scalar->second);
+    if (scalar != scalar_dofs.end())
+      fields->held.emplace_back(node, scalar->second);
   }
   return fields;
 }
@@ -166,13 +165,13 @@ typename Fields<dim>::NodalContact Fields<dim>::project_contact(const SceneForce
       }
     }
   }
-  for (std::vector<double> *sums : {&areas, &gaps})
-    MPI_Allreduce(MPI_IN_PLACE, sums->data(), static_cast<int>(sums->size()), MPI_DOUBLE, MPI_SUM,
-                  discretization->communicator());
+  map->sum(areas);
+  map->sum(gaps);
   std::vector<double> far_gap(surface.n_nodes(), 0.);
   for (const Facet<dim> &facet : surface.facets)
     for (unsigned int i = 0; i < facet.n_nodes(); ++i)
       far_gap[facet.nodes[i]] = std::max(far_gap[facet.nodes[i]], facet.layer_thickness);
+  map->maximize(far_gap);
 
   for (unsigned int node = 0; node < surface.n_nodes(); ++node)
     gaps[node] = areas[node] > 0. ? gaps[node] / areas[node] : far_gap[node];
@@ -182,16 +181,22 @@ typename Fields<dim>::NodalContact Fields<dim>::project_contact(const SceneForce
 template <int dim>
 std::pair<Vector, Vector> Fields<dim>::spread(const NodalContact &nodal, const ContactFields &fields) const
 {
-  Vector pressure(fields.dof_handler.locally_owned_dofs(), fields.relevant, discretization->communicator());
-  Vector gap(pressure);
-  for (const auto &[node, dof] : fields.owned)
+  // The owner of a node may have no face at it.
+  const auto tell_owners = [&](const std::vector<double> &values)
   {
-    pressure[dof] = nodal.pressures[node];
-    gap[dof] = nodal.gaps[node];
-  }
-  pressure.update_ghost_values();
-  gap.update_ghost_values();
-  return {pressure, gap};
+    constexpr double untold = std::numeric_limits<double>::lowest();
+    Vector told(fields.dof_handler.locally_owned_dofs(), fields.relevant, discretization->communicator());
+    for (unsigned int i = 0; i < told.locally_owned_size() + told.get_partitioner()->n_ghost_indices(); ++i)
+      told.local_element(i) = untold;
+    for (const auto &[node, dof] : fields.held)
+      told(dof) = values[node];
+    told.compress(dealii::VectorOperation::max);
+    for (double &value : told)
+      value = value == untold ? 0. : value;
+    told.update_ghost_values();
+    return told;
+  };
+  return {tell_owners(nodal.pressures), tell_owners(nodal.gaps)};
 }
 
 template <int dim>

@@ -9,6 +9,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <fstream>
 
 namespace signorini
@@ -95,6 +96,8 @@ Json describe_contact(const Results<dim> &results)
                    {"area", contact.area},
                    {"resultant", describe_resultants(results)},
                    {"n_pairs_max", results.max_n_pairs},
+                   {"facets", results.n_facets},
+                   {"facets_held", results.n_facets_held},
                    {"touching", contact.n_active > 0},
                    {"peak",
                     {{"max_penetration", results.max_penetration},
@@ -135,6 +138,18 @@ Json describe_energy(const Results<dim> &results)
           {"max_ledger_residual", results.max_ledger_residual}};
 }
 
+template <int dim>
+Json describe_traffic(const Results<dim> &results)
+{
+  const auto per_step = [n_steps = std::max(1u, results.n_steps)](std::uint64_t number)
+  { return static_cast<double>(number) / n_steps; };
+  const Traffic &traffic = results.traffic;
+  return {{"messages_per_step", per_step(traffic.n_messages)},
+          {"bytes_per_step", per_step(traffic.n_bytes)},
+          {"collectives_per_step", per_step(traffic.n_collectives)},
+          {"collective_bytes_per_step", per_step(traffic.n_collective_bytes)}};
+}
+
 Json describe_estimate(const ErrorEstimate &estimate)
 {
   return {{"discretization", estimate.relative(estimate.discretization)},
@@ -170,6 +185,8 @@ void write_summary(const Results<dim> &results, const std::string &input, unsign
   summary["warnings"] = results.warnings;
   summary["run_time"] = {{"total", results.total_run_time}, {"sections", results.run_time}};
   summary["memory_peak_mb"] = results.memory_peak_mb;
+  if (n_ranks > 1)
+    summary["traffic"] = describe_traffic(results);
   if (results.has_contact)
     summary["contact"] = describe_contact(results);
   if (const Json moving = describe_moving_obstacles(results); !moving.empty())

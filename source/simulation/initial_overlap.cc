@@ -2,6 +2,7 @@
 #include "signorini/simulation/initial_overlap.h"
 
 #include "signorini/base/to_eigen.h"
+#include "signorini/contact/coupling/facet_exchange.h"
 #include "signorini/contact/geometry/facet_shape.h"
 #include "signorini/parameters/contact_parameters.h"
 
@@ -10,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 
 namespace signorini
 {
@@ -23,6 +25,30 @@ std::vector<SpatialVector<dim>> current_positions(const SurfaceMap<dim> &surface
   for (SpatialVector<dim> &x : positions)
     x += surface_map.surface().origin;
   return positions;
+}
+
+/// The boxes of the bodies of all ranks.
+template <int dim>
+std::vector<contact::BoundingBox<dim>> gather_body_boxes(const SurfaceMap<dim> &surface_map,
+                                                         const std::vector<SpatialVector<dim>> &positions,
+                                                         const MPI_Comm &communicator)
+{
+  const ContactSurface<dim> &surface = surface_map.surface();
+  std::vector<contact::BoundingBox<dim>> boxes(surface.n_bodies);
+  for (const Facet<dim> &facet : surface.facets)
+    boxes[facet.body].extend(contact::make_facet_box(facet, positions));
+  std::vector<SpatialVector<dim>> low, high;
+  for (const contact::BoundingBox<dim> &box : boxes)
+  {
+    low.push_back(box.min());
+    high.push_back(box.max());
+  }
+  const auto n = static_cast<int>(dim * boxes.size());
+  MPI_Allreduce(MPI_IN_PLACE, low.data(), n, MPI_DOUBLE, MPI_MIN, communicator);
+  MPI_Allreduce(MPI_IN_PLACE, high.data(), n, MPI_DOUBLE, MPI_MAX, communicator);
+  for (unsigned int body = 0; body < boxes.size(); ++body)
+    boxes[body] = {low[body], high[body]};
+  return boxes;
 }
 
 /// Whether a point lies deeper than another, beyond round-off, which must not choose among equals.
@@ -54,11 +80,56 @@ std::optional<InitialOverlap<dim>> choose_deepest(const std::optional<InitialOve
 template <int dim>
 OverlapSearch<dim>::OverlapSearch(const Parameters &the_parameters, const Scene<dim> &the_scene,
                                   const Discretization<dim> &the_discretization,
-                                  const SurfaceMap<dim> &surface_map, const Vector &the_displacement)
+                                  const SurfaceMap<dim> &the_surface_map, const Vector &the_displacement)
     : parameters(the_parameters), scene(the_scene), discretization(the_discretization),
-      surface(surface_map.surface()), displacement(the_displacement),
-      positions(current_positions(surface_map, the_displacement)), interiors(surface, positions)
+      surface_map(the_surface_map), displacement(the_displacement),
+      positions(current_positions(the_surface_map, the_displacement)),
+      body_boxes(gather_body_boxes(the_surface_map, positions, the_discretization.communicator()))
 {
+}
+
+template <int dim>
+OverlapSearch<dim>::WholeBodies::WholeBodies(const OverlapSearch &search,
+                                             const std::set<unsigned int> &bodies)
+    : map(search.surface_map), positions(search.hold(bodies, map)), interiors(map.surface(), positions)
+{
+}
+
+template <int dim>
+std::vector<SpatialVector<dim>> OverlapSearch<dim>::hold(const std::set<unsigned int> &bodies,
+                                                         SurfaceMap<dim> &map) const
+{
+  std::vector<contact::FacetQuery<dim>> queries;
+  for (const unsigned int body : bodies)
+    queries.push_back({body_boxes[body], body});
+  hold_facets<dim>(
+      queries, make_own_boxes(map, positions),
+      [](unsigned int wanted, unsigned int body) { return wanted == body; }, discretization.communicator(),
+      map);
+  return current_positions(map, displacement);
+}
+
+template <int dim>
+std::set<unsigned int> OverlapSearch<dim>::find_bodies(unsigned int body,
+                                                       const contact::BoundingBox<dim> &box) const
+{
+  std::set<unsigned int> found;
+  for (unsigned int other = 0; other < scene.n_bodies(); ++other)
+    if (other != body && !body_boxes[other].isEmpty() && body_boxes[other].intersects(box))
+      found.insert(other);
+  return found;
+}
+
+template <int dim>
+std::set<unsigned int> OverlapSearch<dim>::find_bodies_around() const
+{
+  std::map<unsigned int, contact::BoundingBox<dim>> own_points;
+  for_each_point([&own_points](unsigned int body, const SpatialVector<dim> &x)
+                 { own_points[body].extend(x); });
+  std::set<unsigned int> bodies;
+  for (const auto &[body, box] : own_points)
+    bodies.merge(find_bodies(body, box));
+  return bodies;
 }
 
 template <int dim>
@@ -79,21 +150,27 @@ bool OverlapSearch<dim>::is_excluded(unsigned int body, unsigned int body_or_obs
 }
 
 template <int dim>
-std::optional<InitialOverlap<dim>> OverlapSearch<dim>::find_in_bodies(unsigned int body,
+std::optional<InitialOverlap<dim>> OverlapSearch<dim>::find_in_bodies(const WholeBodies &bodies,
+                                                                      unsigned int body,
                                                                       const SpatialVector<dim> &point) const
 {
-  const auto found = interiors.find_deepest(point, [&](unsigned int other)
-                                            { return other != body && !is_excluded(body, other); });
+  const auto found = bodies.interiors.find_deepest(point, [&](unsigned int other)
+                                                   { return other != body && !is_excluded(body, other); });
   if (!found)
     return {};
-  return InitialOverlap<dim>{body, found->body, found->depth, surface.facets[found->facet].layer_thickness,
-                             point};
+  return InitialOverlap<dim>{body, found->body, found->depth,
+                             bodies.map.surface().facets[found->facet].layer_thickness, point};
 }
 
 template <int dim>
 InitialOverlap<dim> OverlapSearch<dim>::find_at(unsigned int body, const SpatialVector<dim> &point) const
 {
-  std::optional<InitialOverlap<dim>> deepest = find_in_bodies(body, point);
+  const bool is_first = dealii::Utilities::MPI::this_mpi_process(discretization.communicator()) == 0;
+  // The first rank looks for all.
+  const WholeBodies bodies(*this, is_first ? find_bodies(body, contact::BoundingBox<dim>(point))
+                                           : std::set<unsigned int>());
+  std::optional<InitialOverlap<dim>> deepest = choose_deepest(
+      is_first ? find_in_bodies(bodies, body, point) : std::nullopt, discretization.communicator());
   for (unsigned int i = 0; i < scene.obstacles.size(); ++i)
     if (const double depth = scene.obstacles[i]->find_foot(point).depth;
         !is_excluded(body, scene.n_bodies() + i) && depth > (deepest ? deepest->depth : 0.))
@@ -114,11 +191,10 @@ void OverlapSearch<dim>::for_each_point(
   }
   discretization.for_each_own_cell([&](const MeshPart<dim> &, const auto &cell, unsigned int)
                                    { visit(cell->material_id(), to_eigen<dim>(cell->center())); });
-  for (const Facet<dim> &facet : surface.facets)
-    if (facet.owned)
-      // What lies across a long element may hold none of its nodes.
-      for (const SpatialVector<dim> &x : contact::make_lattice(facet, positions, 0.5 * facet.layer_thickness))
-        visit(facet.body, x);
+  for (const Facet<dim> &facet : surface_map.surface().facets)
+    // What lies across a long element may hold none of its nodes.
+    for (const SpatialVector<dim> &x : contact::make_lattice(facet, positions, 0.5 * facet.layer_thickness))
+      visit(facet.body, x);
 }
 
 template <int dim>
@@ -126,13 +202,14 @@ std::optional<InitialOverlap<dim>> OverlapSearch<dim>::find_on_this_rank(double 
 {
   // A scene this wrong needs no exhaustive search: the deepest of so many points tells enough.
   constexpr unsigned int enough = 1000;
+  const WholeBodies bodies(*this, find_bodies_around());
   unsigned int n_found = 0;
   std::optional<InitialOverlap<dim>> deepest;
   const auto look_at = [&](unsigned int body, const SpatialVector<dim> &point)
   {
     if (n_found >= enough)
       return;
-    const auto overlap = find_in_bodies(body, point);
+    const auto overlap = find_in_bodies(bodies, body, point);
     if (!overlap || overlap->depth <= allowed * overlap->thickness)
       return;
     ++n_found;
@@ -146,17 +223,23 @@ std::optional<InitialOverlap<dim>> OverlapSearch<dim>::find_on_this_rank(double 
 template <int dim>
 std::optional<InitialOverlap<dim>> OverlapSearch<dim>::find_swallowed_obstacle() const
 {
-  for (unsigned int i = 0; i < scene.obstacles.size(); ++i)
+  const bool is_first = dealii::Utilities::MPI::this_mpi_process(discretization.communicator()) == 0;
+  std::set<unsigned int> around;
+  for (const ObstacleParameters &obstacle : parameters.obstacles)
+    around.merge(
+        find_bodies(scene.n_bodies(), contact::BoundingBox<dim>(to_spatial_vector<dim>(obstacle.point))));
+  const WholeBodies bodies(*this, is_first ? around : std::set<unsigned int>());
+  for (unsigned int i = 0; i < scene.obstacles.size() && is_first; ++i)
   {
     const auto point = to_spatial_vector<dim>(parameters.obstacles[i].point);
     const double depth = scene.obstacles[i]->find_foot(point).depth;
     if (depth <= 0.)
       continue;
-    const auto found = interiors.find_deepest(point, [&](unsigned int body)
-                                              { return !is_excluded(body, scene.n_bodies() + i); });
+    const auto found = bodies.interiors.find_deepest(point, [&](unsigned int body)
+                                                     { return !is_excluded(body, scene.n_bodies() + i); });
     if (found)
       return InitialOverlap<dim>{found->body, scene.n_bodies() + i, found->depth + depth,
-                                 surface.facets[found->facet].layer_thickness, point};
+                                 bodies.map.surface().facets[found->facet].layer_thickness, point};
   }
   return {};
 }
@@ -165,7 +248,7 @@ template <int dim>
 std::optional<InitialOverlap<dim>> OverlapSearch<dim>::find_gross(double allowed) const
 {
   const auto overlap = choose_deepest(find_on_this_rank(allowed), discretization.communicator());
-  return overlap ? overlap : find_swallowed_obstacle();
+  return overlap ? overlap : choose_deepest(find_swallowed_obstacle(), discretization.communicator());
 }
 
 /// The largest coordinate along a direction.
@@ -175,11 +258,11 @@ double OverlapSearch<dim>::reach(unsigned int body_or_obstacle, const SpatialVec
   if (body_or_obstacle >= scene.n_bodies())
     return scene.obstacles[body_or_obstacle - scene.n_bodies()]->reach(direction);
   double largest = -std::numeric_limits<double>::max();
-  for (const Facet<dim> &facet : surface.facets)
+  for (const Facet<dim> &facet : surface_map.surface().facets)
     if (facet.body == body_or_obstacle)
       for (unsigned int i = 0; i < facet.n_nodes(); ++i)
         largest = std::max(largest, direction.dot(positions[facet.nodes[i]]));
-  return largest;
+  return dealii::Utilities::MPI::max(largest, discretization.communicator());
 }
 
 template <int dim>

@@ -130,6 +130,7 @@ void Simulation<dim>::run()
   }
   measure_bodies();
   watch_for_interruption();
+  traffic_of_setup = count_traffic();
   std::optional<NumericalError> failure;
   try
   {

@@ -216,12 +216,14 @@ void Simulation<dim>::check_obstacle_sizes() const
   {
     if (std::isinf(obstacle->room()))
       continue;
-    std::vector<bool> is_seen(scene.n_bodies(), false);
+    std::vector<int> is_seen(scene.n_bodies(), 0);
     for (const Facet<dim> &facet : surface_map->surface().facets)
       if (unseen_depth(obstacle->room(), facet) < 0.25 * facet.room)
-        is_seen[facet.body] = true;
+        is_seen[facet.body] = 1;
+    dealii::Utilities::MPI::max(is_seen, communicator, is_seen);
     for (unsigned int body = 0; body < scene.n_bodies(); ++body)
-      if (!is_seen[body] && !is_pair_excluded(*parameters.contact, scene.body_names[body], obstacle->name()))
+      if (is_seen[body] == 0 &&
+          !is_pair_excluded(*parameters.contact, scene.body_names[body], obstacle->name()))
         throw InputError(
             Complaint(
                 fmt::format("obstacle '{}' is too small for the faces of body '{}': it could slip between "

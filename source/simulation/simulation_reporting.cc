@@ -56,7 +56,7 @@ void Simulation<dim>::print_plan()
         "Contact: alpha = {}{}, {}, {} facets; the run stops at a penetration of {} h",
         results.penalty_factor, parameters.contact->penalty_factor ? "" : " to begin with",
         stiffness > 0. ? fmt::format("k_A = {:.4g} Pa/m at most", stiffness) : "no surfaces are near yet",
-        surface_map->surface().facets.size(), penetration_limit(0)));
+        surface_map->n_all_facets(), penetration_limit(0)));
   }
   if (const auto *quasi_static = std::get_if<QuasiStaticParameters>(&parameters.solver))
     progress.say(
@@ -117,14 +117,6 @@ void Simulation<dim>::plan_adaptivity()
 }
 
 template <int dim>
-double Simulation<dim>::memory_mb() const
-{
-  dealii::Utilities::System::MemoryStats memory;
-  dealii::Utilities::System::get_memory_stats(memory);
-  return dealii::Utilities::MPI::sum(static_cast<double>(memory.VmHWM), communicator) / 1024.;
-}
-
-template <int dim>
 void Simulation<dim>::measure_bodies()
 {
   nodal_volume = make_nodal_volume(*discretization);
@@ -144,37 +136,45 @@ void Simulation<dim>::gather_samples()
   for (const auto &term : forces.surface_contacts)
     for (const contact::ContactSample<dim> &sample : term->samples())
     {
-      packed.insert(packed.end(),
-                    {static_cast<double>(sample.facet), sample.depth, sample.pressure, sample.area});
+      const Facet<dim> &facet = surface_map->surface().facets[sample.facet];
+      packed.insert(packed.end(), {static_cast<double>(facet.body), facet.layer_thickness, sample.depth,
+                                   sample.pressure, sample.area});
       packed.insert(packed.end(), sample.position.begin(), sample.position.end());
     }
   for (const std::vector<double> &of_rank : dealii::Utilities::MPI::all_gather(communicator, packed))
     for (auto value = of_rank.begin(); value != of_rank.end();)
     {
+      results.sample_bodies.push_back(static_cast<unsigned int>(*value++));
+      results.sample_thicknesses.push_back(*value++);
       contact::ContactSample<dim> sample;
-      sample.facet = static_cast<unsigned int>(*value++);
       sample.depth = *value++;
       sample.pressure = *value++;
       sample.area = *value++;
       for (double &coordinate : sample.position)
         coordinate = *value++;
       results.samples.push_back(sample);
-      results.sample_bodies.push_back(surface_map->surface().facets[sample.facet].body);
-      results.sample_thicknesses.push_back(surface_map->surface().facets[sample.facet].layer_thickness);
     }
 }
 
 template <int dim>
 void Simulation<dim>::gather_nodal_pressures()
 {
+  double smallest = std::numeric_limits<double>::max(), largest = std::numeric_limits<double>::lowest();
   for (const auto &term : forces.surface_contacts)
   {
     for (const double pressure : term->projected_pressures())
       results.max_projected_pressure = std::max(results.max_projected_pressure, pressure);
     for (const std::optional<double> &pressure : term->nodal_pressures())
-      if (pressure)
-        results.nodal_pressures.push_back(*pressure);
+    {
+      smallest = std::min(smallest, pressure.value_or(smallest));
+      largest = std::max(largest, pressure.value_or(largest));
+    }
   }
+  results.max_projected_pressure = dealii::Utilities::MPI::max(results.max_projected_pressure, communicator);
+  smallest = dealii::Utilities::MPI::min(smallest, communicator);
+  largest = dealii::Utilities::MPI::max(largest, communicator);
+  if (smallest <= largest)
+    results.nodal_pressures = {smallest, largest};
 }
 
 template <int dim>
@@ -230,6 +230,7 @@ template <int dim>
 void Simulation<dim>::gather_results()
 {
   results.memory_peak_mb = memory_mb();
+  measure_distribution();
   gather_samples();
   gather_nodal_pressures();
   gather_extremes();

@@ -14,12 +14,15 @@ ImplicitContact<dim>::ImplicitContact(const Discretization<dim> &the_discretizat
                                       const SupportedDofs<dim> &supports, const Terms &contact_terms,
                                       const Frictions &their_frictions, const Vector &mass)
     : discretization(&the_discretization), terms(&contact_terms), frictions(&their_frictions),
-      map(&contact_terms.front()->nodes()), inverse_mass(the_discretization.make_vector())
+      inverse_mass(the_discretization.make_vector())
 {
   Vector masses = mass;
   for (const unsigned int dof : supports.owned_dofs())
     masses.local_element(dof) = std::numeric_limits<double>::infinity();
-  surface_masses = map->gather(masses);
+  const SurfaceMap<dim> &map = contact_terms.front()->nodes();
+  const std::vector<SpatialVector<dim>> nodal = map.gather(masses);
+  for (unsigned int node = 0; node < map.n_own_nodes(); ++node)
+    surface_masses[map.node_dofs(node)[0]] = nodal[node];
   for (unsigned int i = 0; i < masses.locally_owned_size(); ++i)
     if (masses.local_element(i) > 0.)
       inverse_mass.local_element(i) = 1. / masses.local_element(i);
@@ -41,35 +44,59 @@ void ImplicitContact<dim>::start(const State &state)
 }
 
 template <int dim>
-std::vector<SpatialVector<dim>> ImplicitContact<dim>::find_increments(double least, double time_step) const
+std::vector<SpatialVector<dim>> ImplicitContact<dim>::gather_masses(const NumberOfNode &number_of_node) const
 {
-  contact::ContactProblem<dim> own(surface_masses, time_step), whole(surface_masses, time_step);
+  // Every node of the problem is a surface node of some rank.
+  std::vector<SpatialVector<dim>> masses(number_of_node.size(), SpatialVector<dim>::Zero());
+  for (const auto &[dof, number] : number_of_node)
+    if (const auto known = surface_masses.find(dof); known != surface_masses.end())
+      masses[number] = known->second;
+  MPI_Allreduce(MPI_IN_PLACE, masses.data(), static_cast<int>(dim * masses.size()), MPI_DOUBLE, MPI_MAX,
+                discretization->communicator());
+  return masses;
+}
+
+template <int dim>
+auto ImplicitContact<dim>::pick(const Increments &increments, const NumberOfNode &number_of_node,
+                                const NodeMap<dim> &map) -> Increments
+{
+  Increments picked(map.n_nodes(), SpatialVector<dim>::Zero());
+  if (!increments.empty())
+    for (unsigned int node = 0; node < picked.size(); ++node)
+      for (const auto &[master, weight] : map.masters(node))
+        if (const auto number = number_of_node.find(master); number != number_of_node.end())
+          picked[node] += weight * increments[number->second];
+  return picked;
+}
+
+template <int dim>
+auto ImplicitContact<dim>::find_increments(double least, double time_step) const -> std::vector<Increments>
+{
+  std::vector<SpatialVector<dim>> masses;
+  contact::ContactProblem<dim> own(masses, time_step), problem(masses, time_step);
   if (frictions->empty())
     for (const auto &term : *terms)
       term->add_points(least, own);
   for (const auto &friction : *frictions)
     friction->add_points(least, own);
-  const MPI_Comm &communicator = discretization->communicator();
-  const bool is_shared = dealii::Utilities::MPI::n_mpi_processes(communicator) > 1;
   // The same problem on every rank, point by point in the order of the ranks: all find the same increments.
-  if (is_shared)
-    for (const std::vector<double> &packed : dealii::Utilities::MPI::all_gather(communicator, own.pack()))
-      whole.add_packed(packed);
-  contact::ContactProblem<dim> &problem = is_shared ? whole : own;
-  auto increments = problem.solve();
+  NumberOfNode number_of_node;
+  const auto number = [&number_of_node](unsigned int dof)
+  { return number_of_node.emplace(dof, static_cast<unsigned int>(number_of_node.size())).first->second; };
+  for (const std::vector<double> &packed :
+       dealii::Utilities::MPI::all_gather(discretization->communicator(), own.pack()))
+    problem.add_packed(packed, number);
+  masses = gather_masses(number_of_node);
+  const auto increments = problem.solve();
   if (!increments)
     throw NumericalError(Complaint("the contact forces of a time step were not found")
                              .found(fmt::format("{} points near contact, {} iterations", problem.n_points(),
                                                 problem.n_iterations()))
                              .advise("lower Explicit/Bulk step factor or Contact/Penalty factor, or refine"));
-  for (unsigned int node = 0; node < map->n_nodes(); ++node)
-    if (const auto &masters = map->masters(node); masters.size() > 1)
-    {
-      (*increments)[node].setZero();
-      for (const auto &[master, weight] : masters)
-        (*increments)[node] += weight * (*increments)[master];
-    }
-  return *increments;
+  std::vector<Increments> of_terms;
+  for (const auto &term : *terms)
+    of_terms.push_back(pick(*increments, number_of_node, term->nodes()));
+  return of_terms;
 }
 
 template <int dim>
@@ -124,9 +151,9 @@ auto ImplicitContact<dim>::move(const Vector &start, double time_step, const Vec
   }
   for (const auto &friction : *frictions)
     friction->linearize(-reach, start);
-  const std::vector<SpatialVector<dim>> increments = find_increments(-reach, time_step);
-  for (const auto &term : *terms)
-    term->follow(increments, time_step);
+  const std::vector<Increments> increments = find_increments(-reach, time_step);
+  for (std::size_t i = 0; i < terms->size(); ++i)
+    (*terms)[i]->follow(increments[i], time_step);
   for (const auto &friction : *frictions)
     friction->follow();
   const double stored_before = stored;

@@ -50,10 +50,9 @@ QuasiStaticSolver<dim>::QuasiStaticSolver(const Discretization<dim> &the_discret
                                           const QuasiStaticParameters &quasi_static_parameters,
                                           RunTime &the_run_time)
     : discretization(&the_discretization), supports(&supported_dofs), scene(&the_scene),
-      is_body_held(held_bodies), forces(&scene_forces), relevant_dofs(the_discretization.relevant_dofs),
-      parameters(quasi_static_parameters), run_time(&the_run_time),
-      balance(the_discretization, supported_dofs, the_scene.n_bodies(), scene_forces, surface_map,
-              the_run_time),
+      is_body_held(held_bodies), forces(&scene_forces), parameters(quasi_static_parameters),
+      run_time(&the_run_time), balance(the_discretization, supported_dofs, the_scene.n_bodies(), scene_forces,
+                                       surface_map, the_run_time),
       regularization(the_discretization.make_vector())
 {
   const unsigned int n_dofs = discretization->owned_dofs.size();
@@ -78,9 +77,6 @@ QuasiStaticSolver<dim>::QuasiStaticSolver(const Discretization<dim> &the_discret
     longest_step = 0.25 * surface_map->surface().smallest_room();
   for (const auto &obstacle : scene->obstacles)
     longest_step = std::min(longest_step, 0.25 * obstacle->room());
-  for (const auto &contact : forces->contacts)
-    relevant_dofs.add_indices(contact->nodes().relevant_dofs());
-  relevant_dofs.compress();
 }
 
 template <int dim>
@@ -95,6 +91,11 @@ unsigned int QuasiStaticSolver<dim>::n_searches() const
 template <int dim>
 bool QuasiStaticSolver<dim>::make_constraints(double old_time, double time)
 {
+  times_of_constraints = {old_time, time};
+  relevant_dofs = discretization->relevant_dofs;
+  for (const auto &contact : forces->contacts)
+    relevant_dofs.add_indices(contact->nodes().relevant_dofs());
+  relevant_dofs.compress();
   bool do_supports_move = false;
   constraints.reinit(relevant_dofs);
   constraints.merge(discretization->hanging_constraints,
@@ -121,6 +122,7 @@ bool QuasiStaticSolver<dim>::make_constraints(double old_time, double time)
 template <int dim>
 void QuasiStaticSolver<dim>::rebuild_matrix()
 {
+  make_constraints(times_of_constraints.first, times_of_constraints.second); // other facets have come near
   dealii::TrilinosWrappers::SparsityPattern pattern(discretization->owned_dofs, discretization->owned_dofs,
                                                     relevant_dofs, discretization->communicator());
   discretization->add_couplings(constraints, pattern);

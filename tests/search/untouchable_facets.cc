@@ -197,7 +197,10 @@ TYPED_TEST(UntouchableFacets, AreNotComing)
   motion.duration = 1.;
   const std::vector<double> margins(voxels.surface.facets.size(), .6);
   const auto find = [&](const auto &is_allowed)
-  { return find_coming_contact<dim>(voxels.surface, motion, margins, is_allowed); };
+  {
+    return find_coming_contact<dim>(voxels.surface, motion, margins, {SpatialVector<dim>::Zero()},
+                                    is_allowed);
+  };
   EXPECT_TRUE(find(any_pair).empty());
   for (std::size_t i = 0; i < motion.positions.size(); ++i)
     if (motion.positions[i][dim - 1] > 2. && motion.positions[i][0] > 4.5)

@@ -55,6 +55,7 @@ struct Facet : FacetElement<dim>
                     ///< body is one element thick [m]
   double youngs_modulus = 0.; ///< E of that element [Pa]
   double density = 0.;        ///< ρ of that element [kg/m³]
+  unsigned int number = 0;    ///< among the facets of all ranks: orders that must not depend on the ranks
 };
 
 /// Pressures at the nodes of every facet, [facet][node of the facet] [Pa]; a node's may differ from facet to
@@ -62,26 +63,44 @@ struct Facet : FacetElement<dim>
 template <int dim>
 using NodalPressures = std::vector<std::array<double, Facet<dim>::max_n_nodes>>;
 
-/// The outer faces of all bodies of a scene, as the contact module sees them: facets on nodes, nothing of the
-/// elements behind. Every rank holds all facets; `Facet::owned` says which ones it integrates over.
+/// The outer faces of the bodies of a scene, as the contact module sees them: facets on nodes, nothing of the
+/// elements behind. A rank holds its own facets first, which it integrates over and which stay, and after
+/// them those of other ranks that come near; own nodes come first as well.
 template <int dim>
 struct ContactSurface
 {
+  /// What facets of any rank have, also those that are not held.
+  struct Extremes
+  {
+    double layer_thickness = std::numeric_limits<double>::max(); ///< the smallest h [m]
+    double room = std::numeric_limits<double>::max();            ///< the smallest one [m]
+    std::vector<FacetElement<dim>> elements;                     ///< all kinds of them
+  };
+
   /// All positions are from here [m]: near the bodies, so that depths keep their digits in scenes far from
   /// the origin of the coordinates.
   SpatialVector<dim> origin = SpatialVector<dim>::Zero();
   std::vector<SpatialVector<dim>> reference_positions; ///< one a node, undeformed [m]
   std::vector<Facet<dim>> facets;
   unsigned int n_bodies = 0;
+  Extremes elsewhere; ///< of other ranks; may count those of this one as well
 
   unsigned int n_nodes() const { return static_cast<unsigned int>(reference_positions.size()); }
 
-  /// The largest double for a surface without facets [m].
+  /// Of all ranks; the largest double for a surface without facets [m].
   double smallest_room() const
   {
-    double smallest = std::numeric_limits<double>::max();
+    double smallest = elsewhere.room;
     for (const Facet<dim> &facet : facets)
       smallest = std::min(smallest, facet.room);
+    return smallest;
+  }
+
+  double smallest_layer_thickness() const ///< likewise [m]
+  {
+    double smallest = elsewhere.layer_thickness;
+    for (const Facet<dim> &facet : facets)
+      smallest = std::min(smallest, facet.layer_thickness);
     return smallest;
   }
 };

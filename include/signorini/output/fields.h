@@ -47,11 +47,11 @@ private:
   struct ContactFields
   {
     dealii::DoFHandler<dim> dof_handler;
-    std::vector<std::pair<unsigned int, dealii::types::global_dof_index>> owned; ///< surface node, scalar dof
+    std::vector<std::pair<unsigned int, dealii::types::global_dof_index>> held; ///< surface node, scalar dof
     dealii::IndexSet relevant;
   };
 
-  /// By node of the surface.
+  /// By node of this rank's surface.
   struct NodalContact
   {
     std::vector<double> pressures; ///< [Pa]

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "signorini/adaptivity/error_estimate.h"
+#include "signorini/base/traffic.h"
 #include "signorini/contact/potential/contact_potential.h"
 #include "signorini/output/displacement_error.h"
 #include "signorini/parameters/parameters.h"
@@ -108,9 +109,12 @@ struct Results
   std::map<std::string, double> run_time; ///< by section [s]
   double total_run_time = 0.;
   double memory_peak_mb = 0.;
+  Traffic traffic; ///< of the rank that sent most, from the end of the set-up to that of the run
 
   bool has_contact = false;
   double penalty_factor = 0.;                 ///< α, at the end
+  unsigned int n_facets = 0;                  ///< of all ranks, at the end
+  unsigned int n_facets_held = 0;             ///< most that any rank has of them for one term, at the end
   std::optional<double> correction_change;    ///< of the pressures in the last step of correction, relative
   contact::ContactMeasures<dim> contact;      ///< of all contact terms at the end
   double max_penetration = 0.;                ///< of the whole run [m]
@@ -123,8 +127,9 @@ struct Results
   std::vector<contact::ContactSample<dim>> samples;
   std::vector<unsigned int> sample_bodies;
   std::vector<double> sample_thicknesses;
-  double max_projected_pressure = 0.;  ///< at the end, see ContactForce::projected_pressures() [Pa]
-  std::vector<double> nodal_pressures; ///< at the end, see ContactForce::nodal_pressures() [Pa]
+  double max_projected_pressure = 0.; ///< at the end, see ContactForce::projected_pressures() [Pa]
+  std::vector<double>
+      nodal_pressures; ///< smallest and largest at the end, see ContactForce::nodal_pressures() [Pa]
 
   bool has_ledger = false; ///< explicit runs; `energy` of others holds elastic and contact only
   EnergyLedger energy;

@@ -6,6 +6,7 @@
 
 #include <functional>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -38,8 +39,8 @@ public:
   /// elements, or the point of an obstacle in a body; on every rank the same.
   std::optional<InitialOverlap<dim>> find_gross(double allowed) const;
 
-  /// What other body or obstacle a point of a body lies deepest in; if in none, the body itself, with depth
-  /// 0.
+  /// What other body or obstacle a point of a body, the same on every rank, lies deepest in; if in none, the
+  /// body itself, with depth 0.
   InitialOverlap<dim> find_at(unsigned int body, const SpatialVector<dim> &point) const;
 
   /// body 'NAME' or obstacle 'NAME'.
@@ -49,10 +50,29 @@ public:
   SpatialVector<dim> find_shift(const InitialOverlap<dim> &overlap) const;
 
 private:
+  /// The surfaces of some bodies, whole.
+  struct WholeBodies
+  {
+    SurfaceMap<dim> map;
+    std::vector<SpatialVector<dim>> positions; ///< of its nodes, from the origin of the coordinates [m]
+    contact::InteriorSearch<dim> interiors;
+
+    WholeBodies(const OverlapSearch &search, const std::set<unsigned int> &bodies);
+  };
+
+  /// Lets `map` hold these bodies, whole; returns the positions of its nodes (collective).
+  std::vector<SpatialVector<dim>> hold(const std::set<unsigned int> &bodies, SurfaceMap<dim> &map) const;
+  /// The bodies but one whose boxes overlap this one.
+  std::set<unsigned int> find_bodies(unsigned int body, const contact::BoundingBox<dim> &box) const;
+  /// The bodies that points of this rank may lie in.
+  std::set<unsigned int> find_bodies_around() const;
+
   /// All points of this rank that are looked at, with their bodies.
   void for_each_point(const std::function<void(unsigned int, const SpatialVector<dim> &)> &visit) const;
   std::optional<InitialOverlap<dim>> find_on_this_rank(double allowed) const;
-  std::optional<InitialOverlap<dim>> find_in_bodies(unsigned int body, const SpatialVector<dim> &point) const;
+  std::optional<InitialOverlap<dim>> find_in_bodies(const WholeBodies &bodies, unsigned int body,
+                                                    const SpatialVector<dim> &point) const;
+  /// On the first rank, which looks for all.
   std::optional<InitialOverlap<dim>> find_swallowed_obstacle() const;
   double reach(unsigned int body_or_obstacle, const SpatialVector<dim> &direction) const;
   bool is_excluded(unsigned int body, unsigned int body_or_obstacle) const;
@@ -60,9 +80,9 @@ private:
   const Parameters &parameters;
   const Scene<dim> &scene;
   const Discretization<dim> &discretization;
-  const ContactSurface<dim> &surface;
+  const SurfaceMap<dim> &surface_map;
   const Vector &displacement;
-  std::vector<SpatialVector<dim>> positions;
-  contact::InteriorSearch<dim> interiors;
+  std::vector<SpatialVector<dim>> positions; ///< of the own nodes, from the origin of the coordinates [m]
+  std::vector<contact::BoundingBox<dim>> body_boxes; ///< whole ones
 };
 } // namespace signorini

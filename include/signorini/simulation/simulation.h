@@ -179,6 +179,8 @@ private:
   /// Reports, and throws the failure, or what the comparison with the exact solution finds.
   void finish(std::optional<NumericalError> failure);
   void gather_results();
+  /// What ranks hold and send (collective).
+  void measure_distribution();
   void gather_samples();
   void gather_nodal_pressures();
   void gather_extremes();
@@ -243,6 +245,7 @@ private:
   std::uintmax_t statistics_size = 0; ///< of a run that is resumed: at its checkpoint, on rank 0 [bytes]
   double run_time_of_checkpoint = 0.; ///< of the last one [s]
   std::optional<double> time_of_checkpoint; ///< of the last one, none if there is none yet [s]
+  Traffic traffic_of_setup;
   Results<dim> results;
 };
 } // namespace signorini

@@ -6,6 +6,7 @@
 #include "signorini/physics/momentum.h"
 
 #include <memory>
+#include <unordered_map>
 #include <vector>
 
 namespace signorini
@@ -59,16 +60,26 @@ public:
   }
 
 private:
-  std::vector<SpatialVector<dim>> find_increments(double least, double time_step) const;
+  using Increments = std::vector<SpatialVector<dim>>;
+
+  /// Nodes of the problem of one step, the same on every rank, by their first degrees of freedom.
+  using NumberOfNode = std::unordered_map<dealii::types::global_dof_index, unsigned int>;
+
+  /// Of the nodes of each term, [term] (collective).
+  std::vector<Increments> find_increments(double least, double time_step) const;
+  /// Of the problem's nodes, by number (collective).
+  std::vector<SpatialVector<dim>> gather_masses(const NumberOfNode &number_of_node) const;
+  static Increments pick(const Increments &increments, const NumberOfNode &number_of_node,
+                         const NodeMap<dim> &map);
   void compute_forces();
   void book_obstacles(const State &state, Booking &booking) const;
 
   const Discretization<dim> *discretization;
   const Terms *terms;
   const Frictions *frictions;
-  const NodeMap<dim> *map;
   Vector inverse_mass; ///< 0 where a support holds or a node hangs
-  std::vector<SpatialVector<dim>> surface_masses;
+  std::unordered_map<dealii::types::global_dof_index, SpatialVector<dim>>
+      surface_masses;   ///< of this rank's surface nodes, infinite where a support holds [kg; kg/m in 2-D]
   Vector elastic_force; ///< of springs and elastic slips
   Vector damping_force, total_force, outer_force;
   double stored = 0.; ///< energy in springs and elastic slips at the end of the last move [J]

@@ -97,6 +97,7 @@ private:
   std::vector<bool> is_body_held;
   const SceneForces<dim> *forces;
   dealii::IndexSet relevant_dofs; ///< to this rank's cells, or to contact
+  std::pair<double, double> times_of_constraints;
   QuasiStaticParameters parameters;
   RunTime *run_time;
   std::unique_ptr<LinearSolver> linear_solver;

@@ -3,6 +3,8 @@
 
 #include <deal.II/base/mpi.h>
 
+#include <utility>
+
 namespace signorini
 {
 template <int dim>
@@ -16,10 +18,19 @@ FrictionForce<dim>::FrictionForce(const ContactForce<dim> &surface_contact, doub
 template <int dim>
 void FrictionForce<dim>::update(const Vector &velocity)
 {
+  follow_surface();
   if (contact->surface_potential().is_linear())
     friction.follow();
   else
     friction.evaluate(contact->nodes().gather(velocity));
+}
+
+template <int dim>
+void FrictionForce<dim>::follow_surface()
+{
+  if (std::exchange(n_searches_of_memory, contact->n_searches()) != contact->n_searches() &&
+      friction.has_memory())
+    friction.set_positions_of_last_commit(contact->nodes().extend(friction.positions_of_last_commit()));
 }
 
 template <int dim>

@@ -30,7 +30,7 @@ template <int dim>
 void Friction<dim>::evaluate(const std::vector<SpatialVector<dim>> &velocities)
 {
   history.follow(potential.pair_list());
-  if (old_positions.empty())
+  if (!std::exchange(has_begun, true))
     begin();
   const auto let_go = [](const auto &pairs, auto &points)
   {

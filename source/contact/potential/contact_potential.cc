@@ -48,15 +48,29 @@ void ContactPotential<dim>::move_obstacles(const ObstaclePlaces<dim> &new_places
 template <int dim>
 double ContactPotential<dim>::update(const Positions &positions)
 {
-  if (has_pairs && !is_stale(positions) && pairs.settings().integration == Integration::face_quadrature)
+  if (is_stale(positions))
+    return search(positions, [&positions]() { return positions; });
+  if (pairs.settings().integration == Integration::face_quadrature)
     return 0.;
+  evaluate(positions);
+  return renew(positions, energy());
+}
 
-  double old_energy = 0.;
+template <int dim>
+double ContactPotential<dim>::search(const Positions &positions,
+                                     const std::function<Positions()> &take_facets)
+{
   if (has_pairs)
-  {
     evaluate(positions);
-    old_energy = energy();
-  }
+  const double old_energy = energy();
+  const Positions at_nodes_held_now = take_facets();
+  pairs.search(at_nodes_held_now);
+  return renew(at_nodes_held_now, old_energy);
+}
+
+template <int dim>
+double ContactPotential<dim>::renew(const Positions &positions, double old_energy)
+{
   pairs.renew(positions);
   body_feet.forget(pairs);
   is_evaluated = false;

@@ -68,7 +68,8 @@ std::vector<double> ContactProblem<dim>::pack() const
 }
 
 template <int dim>
-void ContactProblem<dim>::add_packed(const std::vector<double> &packed)
+void ContactProblem<dim>::add_packed(const std::vector<double> &packed,
+                                     const std::function<unsigned int(unsigned int)> &number)
 {
   auto value = packed.begin();
   const auto take = [&value](SpatialVector<dim> &vector)
@@ -81,14 +82,14 @@ void ContactProblem<dim>::add_packed(const std::vector<double> &packed)
     Point point;
     point.first_weight = all_weights.size();
     point.end_weight = point.first_weight + static_cast<std::size_t>(*value++);
-    for (double *number :
+    for (double *scalar :
          {&point.area, &point.depth, &point.slope, &point.offset, &point.stiffness, &point.coefficient})
-      *number = *value++;
+      *scalar = *value++;
     take(point.normal);
     take(point.trial);
     while (all_weights.size() < point.end_weight)
     {
-      const auto node = static_cast<unsigned int>(*value++);
+      const unsigned int node = number(static_cast<unsigned int>(*value++));
       Weight weight(node, *value++);
       if (point.coefficient > 0.)
         take(weight.lever);

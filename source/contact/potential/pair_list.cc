@@ -32,10 +32,12 @@ PairList<dim>::PairList(const ContactSurface<dim> &contact_surface, Obstacles ri
     : surface(contact_surface), given_obstacles(std::move(rigid_obstacles)), obstacles_(given_obstacles),
       shifts_of_obstacles(obstacles_.size(), SpatialVector<dim>::Zero()),
       shifts_at_search(shifts_of_obstacles), settings_(std::move(potential_settings)), skin_(compute_skin()),
-      reach_(compute_reach()), neighbour_list(make_neighbour_list())
+      reach_(compute_reach()), neighbour_list(surface, reach_, skin_, allowed_pairs())
 {
   for (const Facet<dim> &facet : surface.facets)
     largest_motion_factor_ = std::max(largest_motion_factor_, lebesgue_constant(facet));
+  for (const FacetElement<dim> &element : surface.elsewhere.elements)
+    largest_motion_factor_ = std::max(largest_motion_factor_, lebesgue_constant(element));
   for (const Facet<dim> &facet : surface.facets)
     if (FacetPoints &points = gauss_points[index(facet)]; points.empty())
       for (const auto &point : make_gauss_points<dim>(facet.type, settings_.n_quadrature_points))
@@ -67,10 +69,9 @@ template <int dim>
 double PairList<dim>::compute_skin() const
 {
   check_input();
-  double thickness = std::numeric_limits<double>::max();
-  for (const Facet<dim> &facet : surface.facets)
-    thickness = std::min(thickness, facet.layer_thickness);
-  return surface.facets.empty() ? 1. : settings_.skin_over_thickness * thickness;
+  const double thickness = surface.smallest_layer_thickness();
+  const bool is_any = thickness < std::numeric_limits<double>::max();
+  return is_any ? settings_.skin_over_thickness * thickness : 1.;
 }
 
 /// At least one skin, so that all within a skin of the surface is seen.
@@ -85,17 +86,24 @@ std::vector<double> PairList<dim>::compute_reach() const
 }
 
 template <int dim>
-NeighbourList<dim> PairList<dim>::make_neighbour_list() const
+auto PairList<dim>::allowed_pairs() const -> IsAllowedPair
 {
   if (!settings_.meets_bodies)
-    return NeighbourList<dim>(surface, reach_, skin_, nullptr);
+    return nullptr;
   std::set<std::pair<unsigned int, unsigned int>> excluded;
   for (const auto &[one, other] : settings_.excluded_body_pairs)
     excluded.insert({std::minmax(one, other)});
   const std::set<unsigned int> self(settings_.self_contact.begin(), settings_.self_contact.end());
-  const auto is_allowed = [excluded, self](unsigned int body, unsigned int other)
+  return [excluded, self](unsigned int body, unsigned int other)
   { return body == other ? self.count(body) > 0 : excluded.count(std::minmax(body, other)) == 0; };
-  return NeighbourList<dim>(surface, reach_, skin_, is_allowed);
+}
+
+template <int dim>
+bool PairList<dim>::may_bodies_touch() const
+{
+  const std::size_t n = surface.n_bodies;
+  return settings_.meets_bodies &&
+         (!settings_.self_contact.empty() || 2 * settings_.excluded_body_pairs.size() < n * (n - 1));
 }
 
 template <int dim>
@@ -117,13 +125,15 @@ void PairList<dim>::move_obstacles(const Positions &shifts)
 }
 
 template <int dim>
+void PairList<dim>::search(const Positions &positions)
+{
+  neighbour_list.rebuild(positions);
+  shifts_at_search = shifts_of_obstacles;
+}
+
+template <int dim>
 void PairList<dim>::renew(const Positions &positions)
 {
-  if (is_stale(positions))
-  {
-    neighbour_list.rebuild(positions);
-    shifts_at_search = shifts_of_obstacles;
-  }
   ++n_renewals_;
 
   const Pairs old_pairs = std::move(body_pairs_);

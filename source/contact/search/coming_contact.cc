@@ -11,34 +11,15 @@ namespace signorini::contact
 {
 namespace
 {
-/// Largest speed of any point of a facet relative to `reference`.
-template <int dim>
-double largest_speed(const Facet<dim> &facet, const StraightMotion<dim> &motion,
-                     const SpatialVector<dim> &reference)
-{
-  double largest = 0.;
-  for (unsigned int a = 0; a < facet.n_nodes(); ++a)
-    largest = std::max(largest, (motion.velocities[facet.nodes[a]] - reference).norm());
-  return lebesgue_constant(facet) * largest;
-}
-
-template <int dim>
-SpatialVector<dim> mean_velocity(const Facet<dim> &facet, const StraightMotion<dim> &motion)
-{
-  SpatialVector<dim> sum = SpatialVector<dim>::Zero();
-  for (unsigned int a = 0; a < facet.n_nodes(); ++a)
-    sum += motion.velocities[facet.nodes[a]];
-  return sum / facet.n_nodes();
-}
-
 template <int dim>
 class ComingContactSearch
 {
 public:
   ComingContactSearch(const ContactSurface<dim> &contact_surface, const StraightMotion<dim> &straight_motion,
+                      const std::vector<SpatialVector<dim>> &velocities_of_bodies,
                       std::vector<std::vector<unsigned int>> untouchable_facets)
       : surface(contact_surface), motion(straight_motion), untouchable(std::move(untouchable_facets)),
-        body_velocities(contact_surface.n_bodies), facets_of_body(contact_surface.n_bodies)
+        body_velocities(velocities_of_bodies), facets_of_body(contact_surface.n_bodies)
   {
     std::vector<BoundingBox<dim>> bodies(surface.n_bodies);
     std::vector<unsigned int> all_bodies;
@@ -46,11 +27,8 @@ public:
       facets_of_body[surface.facets[f].body].push_back(f);
     for (unsigned int body = 0; body < surface.n_bodies; ++body)
     {
-      body_velocities[body].setZero();
       for (const unsigned int f : facets_of_body[body])
-        body_velocities[body] += mean_velocity(surface.facets[f], motion) / facets_of_body[body].size();
-      for (const unsigned int f : facets_of_body[body])
-        bodies[body].extend(swept_box(f, SpatialVector<dim>::Zero()));
+        bodies[body].extend(motion.swept_box(surface.facets[f], SpatialVector<dim>::Zero()));
       all_bodies.push_back(body);
     }
     body_boxes = bodies;
@@ -75,7 +53,7 @@ public:
   {
     std::vector<BoundingBox<dim>> boxes(surface.facets.size());
     for (const unsigned int f : facets_of_body[target])
-      boxes[f] = swept_box(f, body_velocities[target]);
+      boxes[f] = motion.swept_box(surface.facets[f], body_velocities[target]);
     const BoxTree<dim> tree = make_tree<dim>(boxes, facets_of_body[target]);
     std::vector<TreeEntry<dim>> near;
     for (const unsigned int f : facets_of_body[body])
@@ -83,8 +61,8 @@ public:
       if (!surface.facets[f].owned || is_coming[f])
         continue;
       near.clear();
-      tree.query(boost::geometry::index::intersects(
-                     make_tree_box<dim>(swept_box(f, body_velocities[target]), margins[f])),
+      tree.query(boost::geometry::index::intersects(make_tree_box<dim>(
+                     motion.swept_box(surface.facets[f], body_velocities[target]), margins[f])),
                  std::back_inserter(near));
       is_coming[f] = !near.empty() && is_any_near(f, near, margins[f]);
     }
@@ -93,23 +71,6 @@ public:
   const std::vector<unsigned int> &facets_of(unsigned int body) const { return facets_of_body[body]; }
 
 private:
-  /// Holds the facet throughout, for one who moves with the velocity `of_observer`.
-  BoundingBox<dim> swept_box(unsigned int f, const SpatialVector<dim> &of_observer) const
-  {
-    const Facet<dim> &facet = surface.facets[f];
-    std::vector<SpatialVector<dim>> ends(facet.n_nodes());
-    Facet<dim> moved = facet;
-    for (unsigned int a = 0; a < facet.n_nodes(); ++a)
-    {
-      moved.nodes[a] = a;
-      ends[a] = motion.positions[facet.nodes[a]] +
-                motion.duration * (motion.velocities[facet.nodes[a]] - of_observer);
-    }
-    BoundingBox<dim> box = make_facet_box(facet, motion.positions);
-    box.extend(make_facet_box(moved, ends));
-    return box;
-  }
-
   bool is_any_near(unsigned int f, const std::vector<TreeEntry<dim>> &near, double margin) const
   {
     const Facet<dim> &facet = surface.facets[f];
@@ -120,9 +81,9 @@ private:
       if (share_a_node(facet, other) ||
           std::binary_search(untouchable[f].begin(), untouchable[f].end(), entry.second))
         continue;
-      const SpatialVector<dim> reference = mean_velocity(other, motion);
-      const double reach = margin + motion.duration * (largest_speed(facet, motion, reference) +
-                                                       largest_speed(other, motion, reference));
+      const SpatialVector<dim> reference = motion.mean_velocity(other);
+      const double reach = margin + motion.duration * (motion.largest_speed(facet, reference) +
+                                                       motion.largest_speed(other, reference));
       const BoundingBox<dim> box = make_facet_box(other, motion.positions);
       const FacetNodes<dim> nodes = gather_nodes(other, motion.positions);
       for (const SpatialVector<dim> &x : lattice)
@@ -135,7 +96,7 @@ private:
   const ContactSurface<dim> &surface;
   const StraightMotion<dim> &motion;
   std::vector<std::vector<unsigned int>> untouchable; ///< of its own body, one a facet
-  std::vector<SpatialVector<dim>> body_velocities;
+  const std::vector<SpatialVector<dim>> &body_velocities;
   std::vector<std::vector<unsigned int>> facets_of_body;
   std::vector<BoundingBox<dim>> body_boxes; ///< swept, for one at rest
   BoxTree<dim> body_tree;
@@ -152,9 +113,45 @@ std::vector<unsigned int> indices_of(const std::vector<bool> &flags)
 } // namespace
 
 template <int dim>
+SpatialVector<dim> StraightMotion<dim>::mean_velocity(const Facet<dim> &facet) const
+{
+  SpatialVector<dim> sum = SpatialVector<dim>::Zero();
+  for (unsigned int a = 0; a < facet.n_nodes(); ++a)
+    sum += velocities[facet.nodes[a]];
+  return sum / facet.n_nodes();
+}
+
+template <int dim>
+double StraightMotion<dim>::largest_speed(const Facet<dim> &facet,
+                                          const SpatialVector<dim> &of_observer) const
+{
+  double largest = 0.;
+  for (unsigned int a = 0; a < facet.n_nodes(); ++a)
+    largest = std::max(largest, (velocities[facet.nodes[a]] - of_observer).norm());
+  return lebesgue_constant(facet) * largest;
+}
+
+template <int dim>
+BoundingBox<dim> StraightMotion<dim>::swept_box(const Facet<dim> &facet,
+                                                const SpatialVector<dim> &of_observer) const
+{
+  std::vector<SpatialVector<dim>> ends(facet.n_nodes());
+  Facet<dim> moved = facet;
+  for (unsigned int a = 0; a < facet.n_nodes(); ++a)
+  {
+    moved.nodes[a] = a;
+    ends[a] = positions[facet.nodes[a]] + duration * (velocities[facet.nodes[a]] - of_observer);
+  }
+  BoundingBox<dim> box = make_facet_box(facet, positions);
+  box.extend(make_facet_box(moved, ends));
+  return box;
+}
+
+template <int dim>
 std::vector<unsigned int>
 find_coming_contact(const ContactSurface<dim> &surface, const StraightMotion<dim> &motion,
                     const std::vector<double> &margins,
+                    const std::vector<SpatialVector<dim>> &body_velocities,
                     const std::function<bool(unsigned int, unsigned int)> &is_allowed_pair)
 {
   // As wide as for facets of the file's mesh: those of a refined one are near each other along the surface.
@@ -162,7 +159,7 @@ find_coming_contact(const ContactSurface<dim> &surface, const StraightMotion<dim
   for (const double margin : margins)
     distances.push_back(4. * margin);
   const ComingContactSearch<dim> search(
-      surface, motion,
+      surface, motion, body_velocities,
       find_untouchable_facets<dim>(surface, distances,
                                    [&](unsigned int body) { return is_allowed_pair(body, body); }));
   std::vector<bool> is_coming(surface.facets.size(), false);
@@ -170,7 +167,7 @@ find_coming_contact(const ContactSurface<dim> &surface, const StraightMotion<dim
   {
     double margin = 0.;
     for (const unsigned int f : search.facets_of(body))
-      margin = std::max(margin, margins[f]);
+      margin = std::max(margin, surface.facets[f].owned ? margins[f] : 0.);
     for (const unsigned int target : search.find_near_bodies(body, margin))
       if (is_allowed_pair(body, target))
         search.mark(body, target, margins, is_coming);
@@ -193,8 +190,7 @@ find_coming_contact(const ContactSurface<dim> &surface, const StraightMotion<dim
       continue;
     obstacle.find_feet(make_lattice(facet, motion.positions, margins[f]), feet);
     const double reach =
-        margins[f] +
-        motion.duration * largest_speed(facet, motion, SpatialVector<dim>(SpatialVector<dim>::Zero()));
+        margins[f] + motion.duration * motion.largest_speed(facet, SpatialVector<dim>::Zero());
     is_coming[f] =
         std::any_of(feet.begin(), feet.end(), [&](const auto &foot) { return foot.depth >= -reach; });
   }
@@ -205,9 +201,11 @@ template struct StraightMotion<2>;
 template struct StraightMotion<3>;
 template std::vector<unsigned int>
 find_coming_contact(const ContactSurface<2> &, const StraightMotion<2> &, const std::vector<double> &,
+                    const std::vector<SpatialVector<2>> &,
                     const std::function<bool(unsigned int, unsigned int)> &);
 template std::vector<unsigned int>
 find_coming_contact(const ContactSurface<3> &, const StraightMotion<3> &, const std::vector<double> &,
+                    const std::vector<SpatialVector<3>> &,
                     const std::function<bool(unsigned int, unsigned int)> &);
 template std::vector<unsigned int> find_coming_contact(const ContactSurface<2> &, const StraightMotion<2> &,
                                                        const std::vector<double> &, const Obstacle<2> &,

@@ -68,12 +68,22 @@ NeighbourList<dim>::NeighbourList(const ContactSurface<dim> &contact_surface, st
     throw std::invalid_argument("A neighbour list needs one reach a facet.");
   if (!(skin > 0.))
     throw std::invalid_argument("The skin of a neighbour list must be positive.");
+  for (const Facet<dim> &facet : surface.facets)
+    largest_motion_factor = std::max(largest_motion_factor, lebesgue_constant(facet));
+  for (const FacetElement<dim> &element : surface.elsewhere.elements)
+    largest_motion_factor = std::max(largest_motion_factor, lebesgue_constant(element));
+}
+
+template <int dim>
+void NeighbourList<dim>::sort_facets()
+{
+  const bool is_first = untouchable.empty();
+  for (std::vector<unsigned int> &facets : facets_of_body)
+    facets.clear();
   for (unsigned int f = 0; f < surface.facets.size(); ++f)
-  {
     facets_of_body.at(surface.facets[f].body).push_back(f);
-    largest_motion_factor = std::max(largest_motion_factor, lebesgue_constant(surface.facets[f]));
-  }
-  if (!is_allowed)
+  if (!is_allowed || (!is_first && std::all_of(surface.facets.begin(), surface.facets.end(),
+                                               [](const Facet<dim> &facet) { return facet.owned; })))
     return;
   // A wall must be squashed to less than half of its thickness before a point of one side sees the other.
   std::vector<double> distances;
@@ -96,6 +106,7 @@ void NeighbourList<dim>::find_neighbours(const Positions &positions)
   neighbours_.clear();
   if (!is_allowed)
     return;
+  sort_facets();
   Boxes boxes(surface, positions);
   for (unsigned int body = 0; body < surface.n_bodies; ++body)
     add_neighbours_of_body(body, boxes);
@@ -159,6 +170,10 @@ void NeighbourList<dim>::add_neighbours_of_facet(unsigned int facet, unsigned in
                                                                       untouchable[facet].end(), candidate);
                                           }),
                            found.candidates.end());
+  // Of facets that are equally near the first one counts.
+  std::stable_sort(found.candidates.begin(), found.candidates.end(),
+                   [this](unsigned int one, unsigned int other)
+                   { return surface.facets[one].number < surface.facets[other].number; });
   if (!found.candidates.empty())
     neighbours_.push_back(std::move(found));
 }

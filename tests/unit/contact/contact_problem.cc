@@ -197,6 +197,11 @@ TEST(ContactProblem, NeverAddsEnergy)
   }
 }
 
+unsigned int as_it_is(unsigned int node)
+{
+  return node;
+}
+
 TEST(ContactProblem, IsTheSameTakenFromItsNumbers)
 {
   const RandomPoints<3> points(20, 90, 1e6, 10.);
@@ -204,8 +209,8 @@ TEST(ContactProblem, IsTheSameTakenFromItsNumbers)
   points.add_to(whole, 0, 90);
   points.add_to(first, 0, 33);
   points.add_to(second, 33, 90);
-  joined.add_packed(first.pack());
-  joined.add_packed(second.pack());
+  joined.add_packed(first.pack(), as_it_is);
+  joined.add_packed(second.pack(), as_it_is);
   EXPECT_EQ(joined.n_points(), 90u);
   EXPECT_EQ(whole.solve().value(), joined.solve().value());
 }
@@ -340,7 +345,7 @@ TEST(ContactProblem, FrictionIsTheSameTakenFromItsNumbers)
   const RubbingPoints<3> points(.3, 1e6, 10.);
   ContactProblem<3> whole(points.masses, points.time_step), joined = whole;
   points.add_to(whole, 0, 90);
-  joined.add_packed(whole.pack());
+  joined.add_packed(whole.pack(), as_it_is);
   EXPECT_EQ(whole.solve().value(), joined.solve().value());
 }
 } // namespace

@@ -2,6 +2,7 @@
 #include "built_scene.h"
 
 #include "signorini/base/to_eigen.h"
+#include "signorini/contact/coupling/facet_exchange.h"
 #include "signorini/contact/geometry/segments.h"
 #include "signorini/discretization/placement.h"
 
@@ -204,5 +205,135 @@ TYPED_TEST(SurfaceMaps, NodesStandWhereTheirDofsDo)
       displacement.local_element(node.dofs[d]) = -node.position[d];
   for (const SpatialVector<dim> &x : built.map.positions(displacement))
     EXPECT_LT((x + built.map.surface().origin).norm(), 1e-15) << "all have gone to the point 0";
+}
+
+/// Two boxes of several ranks, the upper one `gap` above the lower one, and the lower one's map with the
+/// facets of the other one that come within a margin of its own.
+template <int dim, unsigned int degree>
+struct SharedBoxes
+{
+  static constexpr double margin = .15;
+
+  explicit SharedBoxes(double gap)
+      : built({make_box("lower", {2., 2., 1.}, {4, 4, 2}), make_upper(gap)}, degree), map(built.map)
+  {
+    boxes = make_own_boxes(map, map.surface().reference_positions);
+    for (unsigned int f = 0; f < boxes.size(); ++f)
+    {
+      const SpatialVector<dim> margins = SpatialVector<dim>::Constant(margin);
+      queries.push_back({{boxes[f].min() - margins, boxes[f].max() + margins}, map.surface().facets[f].body});
+    }
+    hold_facets<dim>(
+        queries, boxes, [](unsigned int body, unsigned int other) { return body != other; }, MPI_COMM_WORLD,
+        map);
+  }
+
+  static BodyParameters make_upper(double gap)
+  {
+    BodyParameters upper = make_box("upper", {2., 2., 1.}, {3, 3, 2});
+    upper.placement.shift = {.1, .2, 0.};
+    upper.placement.shift[dim - 1] = (dim == 2 ? 2. : 1.) + gap;
+    return upper;
+  }
+
+  BuiltScene<dim> built;
+  SurfaceMap<dim> map;
+  std::vector<contact::BoundingBox<dim>> boxes;
+  std::vector<contact::FacetQuery<dim>> queries;
+};
+
+template <typename T>
+class SurfaceMapsOnRanks : public testing::Test
+{
+};
+TYPED_TEST_SUITE(SurfaceMapsOnRanks, AllCases);
+
+TYPED_TEST(SurfaceMapsOnRanks, FacetsThatAreNearAreHeldAndNoOthers)
+{
+  constexpr int dim = TypeParam::dim;
+  for (const double gap : {.1, .5})
+  {
+    const SharedBoxes<dim, TypeParam::degree> shared(gap);
+    // All facets of all ranks: number, body, corners of the box.
+    std::vector<double> own;
+    for (unsigned int f = 0; f < shared.boxes.size(); ++f)
+    {
+      const Facet<dim> &facet = shared.map.surface().facets[f];
+      own.insert(own.end(), {double(facet.number), double(facet.body)});
+      own.insert(own.end(), shared.boxes[f].min().begin(), shared.boxes[f].min().end());
+      own.insert(own.end(), shared.boxes[f].max().begin(), shared.boxes[f].max().end());
+    }
+    std::set<unsigned int> expected, held;
+    const auto all = dealii::Utilities::MPI::all_gather(MPI_COMM_WORLD, own);
+    for (unsigned int rank = 0; rank < all.size(); ++rank)
+      for (std::size_t i = 0; i < all[rank].size(); i += 2 + 2 * dim)
+        if (rank != dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD))
+          for (const auto &query : shared.queries)
+            if (query.body != all[rank][i + 1] &&
+                query.box.intersects(contact::BoundingBox<dim>(
+                    SpatialVector<dim>(Eigen::Map<const SpatialVector<dim>>(&all[rank][i + 2])),
+                    SpatialVector<dim>(Eigen::Map<const SpatialVector<dim>>(&all[rank][i + 2 + dim])))))
+              expected.insert(static_cast<unsigned int>(all[rank][i]));
+    const auto &facets = shared.map.surface().facets;
+    for (unsigned int f = 0; f < facets.size(); ++f)
+    {
+      EXPECT_EQ(facets[f].owned, f < shared.map.n_own_facets());
+      if (!facets[f].owned)
+        held.insert(facets[f].number);
+    }
+    EXPECT_EQ(held, expected);
+    EXPECT_EQ(held.size(), facets.size() - shared.map.n_own_facets()) << "each once";
+    const std::size_t n_held = dealii::Utilities::MPI::sum(held.size(), MPI_COMM_WORLD);
+    const bool is_near = gap < SharedBoxes<dim, TypeParam::degree>::margin;
+    EXPECT_EQ(n_held > 0, is_near && all.size() > 1);
+  }
+}
+
+TYPED_TEST(SurfaceMapsOnRanks, GatherAndAddAreTransposesWithFacetsOfOthers)
+{
+  constexpr int dim = TypeParam::dim;
+  SharedBoxes<dim, TypeParam::degree> shared(.1);
+  const Vector u = shared.built.random_vector(1.);
+  const auto gathered = shared.map.gather(u);
+  ASSERT_EQ(gathered.size(), shared.map.surface().n_nodes());
+  std::vector<SpatialVector<dim>> nodal(gathered.size());
+  double product = 0.;
+  for (unsigned int node = 0; node < nodal.size(); ++node)
+  {
+    for (unsigned int d = 0; d < dim; ++d)
+      nodal[node][d] = std::sin(1. + 3. * node + d);
+    product += nodal[node].dot(gathered[node]);
+  }
+  Vector forces = shared.built.discretization.make_vector();
+  shared.map.add_to_owners(nodal, forces);
+  shared.built.discretization.collect(forces);
+  product = dealii::Utilities::MPI::sum(product, MPI_COMM_WORLD);
+  EXPECT_NEAR(forces * u, product, 1e-12 * shared.map.n_all_facets());
+}
+
+TYPED_TEST(SurfaceMapsOnRanks, WhatNodesHaveIsCombinedOverRanks)
+{
+  constexpr int dim = TypeParam::dim;
+  const SharedBoxes<dim, TypeParam::degree> shared(.1);
+  const auto x = shared.map.positions(shared.built.discretization.make_vector());
+  EXPECT_EQ(shared.map.extend(x), x) << "what own nodes have comes to all that are held";
+  std::vector<double> ones(x.size(), 1.),
+      ranks(x.size(), dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD));
+  shared.map.sum(ones);
+  shared.map.maximize(ranks);
+  const unsigned int n_ranks = dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD);
+  double largest = 0.;
+  for (unsigned int node = 0; node < x.size(); ++node)
+  {
+    EXPECT_GE(ones[node], 1.);
+    EXPECT_LE(ones[node], n_ranks);
+    EXPECT_LT(ranks[node], n_ranks);
+    largest = std::max(largest, ones[node]);
+    if (ones[node] == n_ranks)
+    {
+      EXPECT_EQ(ranks[node], n_ranks - 1.) << "the last rank holds it, too";
+    }
+  }
+  EXPECT_EQ(dealii::Utilities::MPI::max(largest, MPI_COMM_WORLD) > 1., n_ranks > 1) << "nodes between ranks";
 }
 } // namespace

@@ -17,8 +17,8 @@ template <int dim>
 class ContactForce : public ContactTerm<dim>
 {
 public:
-  /// `is_external`: contact with obstacles, which changes the momentum of the bodies. `map` must outlive this
-  /// object.
+  /// `is_external`: contact with obstacles, which changes the momentum of the bodies. The surface is a copy
+  /// of `map`, which holds facets of other ranks as far as they are near.
   ContactForce(const std::string &name, bool is_external, const SurfaceMap<dim> &map,
                const typename contact::ContactPotential<dim>::Obstacles &obstacles,
                const contact::PotentialSettings &settings, const MPI_Comm &communicator);
@@ -39,10 +39,11 @@ public:
   double add_damping_force(const Vector &velocity, Vector &force) const;
 
   /// See ContactPotential::find_entries() and linearize(); after update().
-  void find_entries(const Vector &start) { potential.find_entries(map->positions(start)); }
-  void linearize(const Vector &start) { potential.linearize(map->positions(start)); }
+  void find_entries(const Vector &start) { potential.find_entries(map.positions(start)); }
+  void linearize(const Vector &start) { potential.linearize(map.positions(start)); }
 
-  /// Adds the points of this rank that overlap by more than `least` [m], on nodes that do not hang.
+  /// Adds the points of this rank that overlap by more than `least` [m], on nodes that do not hang, which the
+  /// problem knows by their first degrees of freedom.
   void add_points(double least, contact::ContactProblem<dim> &problem) const;
 
   /// Adds one of them.
@@ -59,7 +60,7 @@ public:
   void freeze(const Vector &start);
   void thaw() { is_frozen = false; }
 
-  const NodeMap<dim> &nodes() const override { return *map; }
+  const SurfaceMap<dim> &nodes() const override { return map; }
   void add_row_sum_bounds(Vector &stiffness, Vector &damping) const override;
   contact::ContactMeasures<dim> measure() const override;
   contact::PairForces<dim> pair_forces(const State &state) const override;
@@ -70,7 +71,7 @@ public:
   /// By how much each obstacle moved from the time before to that of the last update [m].
   std::vector<SpatialVector<dim>> obstacle_increments() const;
 
-  /// Pressure by node of the whole surface, the same on all ranks, where there is area that faces another
+  /// Pressure by node of this rank's surface, own nodes first, where there is area that faces another
   /// surface: force without damping over that area; of quadratic triangles, whose corners have no area, both
   /// are those of the linear functions of the corners [Pa] (collective).
   std::vector<std::optional<double>> nodal_pressures() const;
@@ -82,7 +83,7 @@ public:
   /// A length within which contact is looked for [m]: half the thinnest layer of cells.
   double skin() const { return potential.pair_list().skin(); }
 
-  /// See ContactPotential::facet_errors(); non-zero for this rank's facets only.
+  /// See ContactPotential::facet_errors(); of this rank's facets, and zero for others.
   std::vector<double> facet_errors() const { return potential.facet_errors(); }
 
   /// Pressure at the nodes of this rank's facets, [facet][node of the facet], non-zero for these only: the
@@ -90,8 +91,8 @@ public:
   /// off below 0 [Pa].
   NodalPressures<dim> facet_pressures() const;
 
-  /// The same as a mean over the facets under pressure at a node of the surface, by area, on every rank,
-  /// [node] [Pa] (collective): without the noise of single points.
+  /// The same as a mean over the facets of all ranks under pressure at a node of this rank's surface, by
+  /// area, [node] [Pa] (collective): without the noise of single points.
   std::vector<double> projected_pressures() const;
 
   /// See PairList::set_penalty_factor(); the energy is another one afterwards.
@@ -106,12 +107,12 @@ public:
   /// This rank's points.
   std::vector<contact::ContactSample<dim>> samples() const;
 
-  const ContactSurface<dim> &surface() const { return map->surface(); }
+  const ContactSurface<dim> &surface() const { return map.surface(); }
 
   /// Of the surface's nodes, from its origin [m].
   std::vector<SpatialVector<dim>> positions(const Vector &displacement) const
   {
-    return map->positions(displacement);
+    return map.positions(displacement);
   }
 
   /// What acts on this rank's facets; positions in it are from the surface's origin.
@@ -121,19 +122,30 @@ public:
   template <typename Archive>
   void serialize(Archive &archive, unsigned int /*version*/)
   {
+    // What is remembered of foreign facets is told by their places: these must be held first.
+    std::vector<SpatialVector<dim>> searched = potential.pair_list().positions_at_search();
+    archive &searched;
+    if (Archive::is_loading::value && is_any(!searched.empty()))
+      take_facets(searched);
     archive &potential;
   }
 
 private:
   /// Puts the obstacles where they are at that time.
   void move_obstacles(double time);
-  /// Force by node, without damping, the same on all ranks [N] (collective).
+  /// Whether it is so on any rank (collective).
+  bool is_any(bool is_here) const;
+  /// Holds the facets of other ranks that are near at these positions of the own nodes (collective).
+  void take_facets(const std::vector<SpatialVector<dim>> &positions);
+  /// Searches neighbours of all ranks; returns this rank's part of the jump of the energy [J] (collective).
+  double search(const State &state, const std::vector<SpatialVector<dim>> &positions);
+  /// This rank's part of the force by node, without damping [N].
   std::vector<SpatialVector<dim>> nodal_forces() const;
-  /// Area by node, ∫N dA over the sampled parts of the faces that face another surface, the same on all ranks
-  /// [m²; m in 2-D] (collective).
+  /// This rank's part of the area by node, ∫N dA over the sampled parts of the faces that face another
+  /// surface [m²; m in 2-D].
   std::vector<double> nodal_areas() const;
 
-  const SurfaceMap<dim> *map;
+  SurfaceMap<dim> map;
   contact::ContactPotential<dim> potential;
   bool is_frozen = false;
   std::vector<ObstacleMotion<dim>> motions; ///< one an obstacle; empty if none moves

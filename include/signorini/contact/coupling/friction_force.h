@@ -26,9 +26,10 @@ public:
   void update(const Vector &velocity);
 
   /// See contact::Friction::linearize(), for_each_linear_point() and follow(): after those of the contact,
-  /// whose add_points() this one's add_points() replaces.
+  /// whose add_points() this one's add_points() replaces (linearize() is collective).
   void linearize(double least, const Vector &acting)
   {
+    follow_surface();
     friction.linearize(least, contact->positions(acting));
   }
   void add_points(double least, contact::ContactProblem<dim> &problem) const;
@@ -67,12 +68,17 @@ public:
   template <typename Archive>
   void serialize(Archive &archive, unsigned int /*version*/)
   {
-    archive &friction;
+    archive &friction &n_searches_of_memory;
   }
 
 private:
+  /// Where the nodes were at the last commit is asked anew of their ranks once other facets are held
+  /// (collective).
+  void follow_surface();
+
   const ContactForce<dim> *contact;
   contact::Friction<dim> friction;
   MPI_Comm communicator;
+  unsigned int n_searches_of_memory = 0;
 };
 } // namespace signorini

@@ -60,6 +60,13 @@ public:
   /// nearest of `slips` with the same partners, as far as its cone allows.
   void remember(std::vector<PlacedSlip<dim>> slips) { remembered = std::move(slips); }
 
+  /// Whether it has been evaluated: from then on it remembers where the nodes were at the last commit.
+  /// Whoever gives the surface other facets of other ranks must give this the positions of their nodes before
+  /// anything else is asked.
+  bool has_memory() const { return has_begun; }
+  const Positions &positions_of_last_commit() const { return old_positions; }
+  void set_positions_of_last_commit(Positions positions) { old_positions = std::move(positions); }
+
   double energy() const; ///< Σ A ½ k_A |s|² [J]
 
   /// For an iteration that looks for a balance: takes the pressures of the last evaluation for those of
@@ -101,7 +108,7 @@ public:
   template <typename Archive>
   void serialize(Archive &archive, unsigned int /*version*/)
   {
-    archive &history &old_positions &old_shifts;
+    archive &history &has_begun &old_positions &old_shifts;
   }
 
 private:
@@ -141,7 +148,8 @@ private:
   SlidUnder slid_under;
   SlipHistory<dim> history;
   std::vector<PlacedSlip<dim>> remembered;   ///< until the first evaluation
-  Positions old_positions;                   ///< of the last commit; empty before the first
+  bool has_begun = false;                    ///< whether it has been evaluated
+  Positions old_positions;                   ///< of the last commit
   Positions old_shifts;                      ///< of the obstacles, then
   std::vector<LinearSlip<dim>> linear_slips; ///< after linearize(), one a pair, body pairs first
   Positions linear_positions;                ///< that these are trial slips at

@@ -39,8 +39,8 @@ public:
   using Positions = std::vector<SpatialVector<dim>>;
   using Obstacles = std::vector<std::shared_ptr<const Obstacle<dim>>>;
 
-  /// `contact_surface` must outlive this object. Throws std::invalid_argument for settings or facets without
-  /// sense.
+  /// `contact_surface` must outlive this object; its own facets must stay, those of other ranks may change in
+  /// search() only. Throws std::invalid_argument for settings or facets without sense.
   ContactPotential(const ContactSurface<dim> &contact_surface, Obstacles obstacles,
                    PotentialSettings settings);
 
@@ -56,6 +56,11 @@ public:
   /// face quadrature, at every call with face segments. Returns the jump of the stored energy [J] that the
   /// renewal caused at these positions, exactly 0 if no point and no stiffness changed, and 0 the first time.
   double update(const Positions &positions);
+
+  /// The same where neighbours must be searched, whether is_stale() here or on another rank only.
+  /// `take_facets` is called in between: it may change the facets of other ranks in the surface, and returns
+  /// the positions of all nodes that there are afterwards.
+  double search(const Positions &positions, const std::function<Positions()> &take_facets);
 
   /// Whether some node or obstacle moved so far since the last renewal that neighbours may be missing.
   bool is_stale(const Positions &positions) const;
@@ -231,6 +236,7 @@ private:
   void move_to(const Positions &positions);
   /// Those less than `gap` outside of their targets.
   void find_feet(double gap) const { body_feet.find_within(gap, evaluated_positions, surface, pairs); }
+  double renew(const Positions &positions, double old_energy);
   void evaluate_obstacle_pairs();
   double depth_rate(const NearPair &near, const std::vector<SpatialVector<dim>> &velocities) const;
   double damping_pressure(const NearPair &near, double depth_rate) const;

@@ -5,6 +5,7 @@
 
 #include <Eigen/SparseCore>
 
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -52,9 +53,12 @@ public:
   /// Adds a point with the depth and the slip it has at δ = 0; `weights` are of nodes that have masses.
   void add(const LinearPoint<dim> &point, const Weights &weights);
 
-  /// All points as plain numbers, and the points of another problem taken from such: for other ranks.
+  /// All points as plain numbers, for other ranks.
   std::vector<double> pack() const;
-  void add_packed(const std::vector<double> &packed);
+
+  /// Adds points packed by another problem, whose nodes `number` gives the number they have in this one.
+  void add_packed(const std::vector<double> &packed,
+                  const std::function<unsigned int(unsigned int node)> &number);
 
   /// δ of all nodes [m]; zero where no point acts. Nothing if none was found.
   std::optional<Increments> solve();

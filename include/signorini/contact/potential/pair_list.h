@@ -27,6 +27,7 @@ public:
 
   /// `contact_surface` must outlive this object. Throws std::invalid_argument for settings or facets without
   /// sense.
+  /// The surface's own facets must stay.
   PairList(const ContactSurface<dim> &contact_surface, Obstacles rigid_obstacles,
            PotentialSettings potential_settings);
 
@@ -38,8 +39,14 @@ public:
   unsigned int n_searches() const { return neighbour_list.n_rebuilds(); }
   const std::vector<FacetNeighbours> &neighbours() const { return neighbour_list.neighbours(); }
 
-  /// Makes all pairs anew; the neighbour list only if is_stale().
+  /// Searches neighbours anew; renew() must follow.
+  void search(const Positions &positions);
+
+  /// Makes all pairs anew.
   void renew(const Positions &positions);
+
+  /// Of the nodes at the last search; empty before the first.
+  const Positions &positions_at_search() const { return neighbour_list.positions_at_search(); }
 
   /// How often pairs were made: between two renewals each keeps its place in its list.
   unsigned int n_renewals() const { return n_renewals_; }
@@ -74,8 +81,19 @@ public:
   SurfaceFoot<dim> find_body_foot(const ContactPair<dim> &pair, const Positions &positions,
                                   const SpatialVector<dim> &x, double cutoff) const;
 
-  /// How deep a point of that facet sees another body [m].
+  /// How deep a point of that owned facet sees another body [m].
   double reach(unsigned int facet) const { return reach_[facet]; }
+
+  /// How far from its box an owned facet's neighbours are looked for [m].
+  double search_distance(unsigned int facet) const { return neighbour_list.search_distance(facet); }
+
+  using IsAllowedPair = typename NeighbourList<dim>::IsAllowedPair;
+
+  /// Which bodies may touch each other, or themselves.
+  IsAllowedPair allowed_pairs() const;
+
+  /// Whether there are any.
+  bool may_bodies_touch() const;
 
   bool is_excluded_obstacle(unsigned int body, unsigned int obstacle) const;
 
@@ -106,8 +124,6 @@ private:
   void check_input() const;
   double compute_skin() const;
   std::vector<double> compute_reach() const;
-  NeighbourList<dim> make_neighbour_list() const;
-
   /// Gives pairs that were there before the stiffness and damping they had: a point in contact keeps its law,
   /// whichever facet it has come nearest to, so that renewal brings no energy.
   void keep_coefficients(const Pairs &old_pairs);

@@ -28,7 +28,7 @@ public:
   using Positions = std::vector<SpatialVector<dim>>;
   using IsAllowedPair = std::function<bool(unsigned int body, unsigned int other_body)>;
 
-  /// `reach` [m], one a facet: how deep or far a point of that facet may see. `skin` > 0 [m].
+  /// `reach` [m], one an owned facet: how deep or far a point of that facet may see. `skin` > 0 [m].
   /// `is_allowed_pair` of a body and itself: whether it may touch itself; what of it is left out of that is
   /// settled here, on the undeformed surface (find_untouchable_facets). Without it nothing may touch.
   /// `surface` must outlive this object. Throws std::invalid_argument if these do not fit together.
@@ -40,11 +40,17 @@ public:
 
   /// Finds, for every owned facet, all facets that it may touch whose bounding boxes come within reach + skin
   /// of its own (the skin a little wider for facets of degree 2, whose points may move farther than their
-  /// nodes).
+  /// nodes). Facets of other ranks may have changed since the last time.
   void rebuild(const Positions &positions);
+
+  /// How far from its box an owned facet's neighbours are looked for [m].
+  double search_distance(unsigned int facet) const;
 
   const std::vector<FacetNeighbours> &neighbours() const { return neighbours_; }
   unsigned int n_rebuilds() const { return record.n_searches(); }
+
+  /// Of the last rebuild; empty before the first.
+  const Positions &positions_at_search() const { return record.positions(); }
 
   /// The record of the last search, from which its neighbours are found again, for boost's archives.
   template <typename Archive>
@@ -58,10 +64,10 @@ public:
 private:
   struct Boxes;
 
+  /// Takes the facets as they are now: those of other ranks come and go.
+  void sort_facets();
   void find_neighbours(const Positions &positions);
 
-  /// How far from its box a facet's neighbours must be looked for.
-  double search_distance(unsigned int facet) const;
   std::vector<unsigned int> find_near_bodies(unsigned int body, const Boxes &boxes) const;
   void add_neighbours_of_body(unsigned int body, Boxes &boxes);
   void add_neighbours_of_facet(unsigned int facet, unsigned int target_body, Boxes &boxes);
