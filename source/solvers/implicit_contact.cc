@@ -6,6 +6,7 @@
 #include <fmt/core.h>
 
 #include <limits>
+#include <set>
 
 namespace signorini
 {
@@ -80,12 +81,18 @@ auto ImplicitContact<dim>::find_increments(double least, double time_step) const
   for (const auto &friction : *frictions)
     friction->add_points(least, own);
   // The same problem on every rank, point by point in the order of the ranks: all find the same increments.
+  // Its nodes are numbered in the order of their degrees of freedom, so that it is eliminated in the same
+  // order on any number of ranks.
+  const auto packed_of_ranks = dealii::Utilities::MPI::all_gather(discretization->communicator(), own.pack());
+  std::set<unsigned int> dofs;
+  contact::ContactProblem<dim> unnumbered(masses, time_step);
+  for (const std::vector<double> &packed : packed_of_ranks)
+    unnumbered.add_packed(packed, [&dofs](unsigned int dof) { return *dofs.insert(dof).first; });
   NumberOfNode number_of_node;
-  const auto number = [&number_of_node](unsigned int dof)
-  { return number_of_node.emplace(dof, static_cast<unsigned int>(number_of_node.size())).first->second; };
-  for (const std::vector<double> &packed :
-       dealii::Utilities::MPI::all_gather(discretization->communicator(), own.pack()))
-    problem.add_packed(packed, number);
+  for (const unsigned int dof : dofs)
+    number_of_node.emplace(dof, static_cast<unsigned int>(number_of_node.size()));
+  for (const std::vector<double> &packed : packed_of_ranks)
+    problem.add_packed(packed, [&number_of_node](unsigned int dof) { return number_of_node.at(dof); });
   masses = gather_masses(number_of_node);
   const auto increments = problem.solve();
   if (!increments)
