@@ -14,7 +14,7 @@ namespace
 {
 /// Distorted cells of both shapes, more of each than fill whole batches, and hanging nodes.
 template <int dim>
-std::vector<BodyParameters> make_bodies(Model ball_model, Model cube_model)
+std::vector<BodyParameters> make_two_laws(Model ball_model, Model cube_model)
 {
   BodyParameters ball = make_ball("ball", .8, 1);
   ball.placement.shift = {3., -1., .5};
@@ -89,7 +89,7 @@ TYPED_TEST(VectorKernel, ForcesAreThoseOfSingleCells)
   for (const auto &[one, other] : {std::pair(Model::neo_hookean, Model::linear_elastic),
                                    std::pair(Model::linear_elastic, Model::neo_hookean)})
   {
-    const BuiltScene<dim> built(make_bodies<dim>(one, other), 1);
+    const BuiltScene<dim> built(make_two_laws<dim>(one, other), 1);
     // Also where forces are small differences of large terms.
     for (const double amplitude : {.04, 1e-7})
     {
@@ -116,7 +116,7 @@ TYPED_TEST(VectorKernel, EnergiesAreThoseOfSingleCells)
   constexpr int dim = TypeParam::dim;
   for (const Model model : {Model::neo_hookean, Model::linear_elastic})
   {
-    const BuiltScene<dim> built(make_bodies<dim>(model, model), 1);
+    const BuiltScene<dim> built(make_two_laws<dim>(model, model), 1);
     for (const double amplitude : {.04, 1e-7})
     {
       const Vector u = built.random_vector(amplitude);
@@ -138,7 +138,7 @@ TYPED_TEST(VectorKernel, EnergiesAreThoseOfSingleCells)
 TYPED_TEST(VectorKernel, StretchesAreThoseOfSingleCells)
 {
   constexpr int dim = TypeParam::dim;
-  BuiltScene<dim> built(make_bodies<dim>(Model::neo_hookean, Model::linear_elastic), 1);
+  BuiltScene<dim> built(make_two_laws<dim>(Model::neo_hookean, Model::linear_elastic), 1);
   const Vector u = built.random_vector(.04);
   const CellTable<dim> &cells = built.discretization.cells;
   for (const VectorKernels<dim> *kernels : list_kernels<dim>())
@@ -166,7 +166,7 @@ TYPED_TEST(VectorKernel, StretchesAreThoseOfSingleCells)
 TYPED_TEST(VectorKernel, CellsInsideOutHaveNoForce)
 {
   constexpr int dim = TypeParam::dim;
-  const BuiltScene<dim> built(make_bodies<dim>(Model::neo_hookean, Model::neo_hookean), 1);
+  const BuiltScene<dim> built(make_two_laws<dim>(Model::neo_hookean, Model::neo_hookean), 1);
   // Mirrored: every volume is negative.
   Vector u = built.discretization.make_vector();
   for (const OwnedNode<dim> &node : built.discretization.owned_nodes)
