@@ -8,6 +8,15 @@
 
 namespace signorini
 {
+namespace
+{
+bool has_kernels(MaterialParameters::Model model)
+{
+  return model == MaterialParameters::Model::linear_elastic ||
+         model == MaterialParameters::Model::neo_hookean;
+}
+} // namespace
+
 template <int dim>
 BatchedForce<dim>::BatchedForce(const std::vector<MaterialParameters> &materials,
                                 const Discretization<dim> &the_discretization,

@@ -5,6 +5,8 @@
 #include "signorini/discretization/scene_mesh.h"
 #include "signorini/parameters/mesh_parameters.h"
 
+#include <algorithm>
+#include <optional>
 #include <set>
 
 using namespace signorini;
@@ -283,5 +285,25 @@ TYPED_TEST(Meshes, PlacementTurnsScalesAndShifts)
       axis[d] = parameters.rotation_axis[d];
     EXPECT_LT((general.rotate(axis) - axis).norm(), 1e-14);
   }
+}
+
+TYPED_TEST(Discretizations, NumberNeighbouringSimplicesTogetherWhateverTheOrderOfTheFile)
+{
+  constexpr int dim = TypeParam::dim;
+  BodyParameters box = make_simplex_box("box", dim, {8., 8., 8.}, {8, 8, 8});
+  auto mesh = std::make_shared<SimplexMesh>(make_cut_box(box.mesh, dim));
+  std::shuffle(mesh->cells.begin(), mesh->cells.end(), std::mt19937(3));
+  box.mesh.mesh_of_file = mesh;
+  BuiltScene<dim> built({box}, TypeParam::degree);
+  double distance = 0.;
+  std::optional<dealii::Point<dim>> before;
+  built.discretization.for_each_own_cell(
+      [&](const MeshPart<dim> &, const auto &cell, unsigned int)
+      {
+        if (before)
+          distance += before->distance(cell->center());
+        before = cell->center();
+      });
+  EXPECT_LT(distance / built.discretization.cells.n_cells, 1.); // in any order: four
 }
 } // namespace
