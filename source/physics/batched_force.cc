@@ -24,7 +24,7 @@ BatchedForce<dim>::BatchedForce(const std::vector<MaterialParameters> &materials
     : discretization(&the_discretization), kernels(&the_kernels), bodies(materials.size())
 {
   for (unsigned int body = 0; body < materials.size(); ++body)
-    bodies[body] = discretization->degree == 1 && materials[body].model != MaterialParameters::Model::plastic;
+    bodies[body] = discretization->degree == 1 && has_kernels(materials[body].model);
   const CellTable<dim> &cells = discretization->cells;
   for (unsigned int cell = 0; cell < cells.n_cells; ++cell)
     if (has_body(cells.bodies[cell]))
