@@ -42,7 +42,7 @@ void remove_earlier_output(const std::string &directory)
     return;
   static const std::regex own(
       "summary\\.json|profile\\.csv|study\\.csv|report\\.html|solution\\.pvd|"
-      "report_(scene|contact_pressure|contact_force|largest_pressure|penetration|energy|support_force|"
+      "report_(scene|growth|contact_pressure|contact_force|largest_pressure|penetration|energy|support_force|"
       "contact_area|estimated_error|run_time|error_time|error_dofs|memory)\\.png|"
       "solution_[0-9]{4,}(\\.pvtu|\\.[0-9]+\\.vtu)");
   std::vector<files::path> earlier;

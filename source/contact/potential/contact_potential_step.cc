@@ -43,6 +43,7 @@ void ContactPotential<dim>::find_entries(const Positions &start)
 {
   // Turns and bends of the target within a step account for less.
   constexpr double share_of_thickness = 0.01;
+  find_feet(std::numeric_limits<double>::max()); // so that linearize() finds none anew
   Positions motion = evaluated_positions;
   for (std::size_t node = 0; node < motion.size(); ++node)
     motion[node] -= start[node];
