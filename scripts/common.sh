@@ -7,7 +7,7 @@ root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 build_jobs()
 {
   local cores gigabytes
-  cores=$(nproc)
+  cores=$(env -u OMP_NUM_THREADS nproc) # which takes that variable for the number of cores
   gigabytes=$(awk '/^MemAvailable:/ { print int($2 / 1048576) }' /proc/meminfo)
   local fitting=$((gigabytes / 2))
   [ "$fitting" -ge 1 ] || fitting=1
