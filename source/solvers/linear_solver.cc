@@ -53,12 +53,22 @@ void copy(const dealii::TrilinosWrappers::SparseMatrix &matrix, Symmetry symmetr
     MatSetOption(*copied, MAT_SPD, PETSC_TRUE);
 }
 
-/// Solves with a PETSc solver that `configure(solver)` has set up. Returns whether it succeeded.
+bool is_solved(KSPConvergedReason reason)
+{
+  return reason > 0;
+}
+
+bool is_indefinite(KSPConvergedReason reason)
+{
+  return reason == KSP_DIVERGED_INDEFINITE_MAT || reason == KSP_DIVERGED_INDEFINITE_PC;
+}
+
+/// Solves with a PETSc solver that `configure(solver)` has set up. Returns why it ended.
 template <typename Configure>
-bool solve_in_petsc(const dealii::TrilinosWrappers::SparseMatrix &matrix, Symmetry symmetry,
-                    const dealii::TrilinosWrappers::MPI::Vector &right_hand_side,
-                    dealii::TrilinosWrappers::MPI::Vector &solution, PetscInt &n_iterations,
-                    const Configure &configure)
+KSPConvergedReason solve_in_petsc(const dealii::TrilinosWrappers::SparseMatrix &matrix, Symmetry symmetry,
+                                  const dealii::TrilinosWrappers::MPI::Vector &right_hand_side,
+                                  dealii::TrilinosWrappers::MPI::Vector &solution, PetscInt &n_iterations,
+                                  const Configure &configure)
 {
   OwnedMatrix system;
   copy(matrix, symmetry, &system);
@@ -80,7 +90,7 @@ bool solve_in_petsc(const dealii::TrilinosWrappers::SparseMatrix &matrix, Symmet
   VecGetArray(x, &entries);
   std::copy(entries, entries + (solution.end() - solution.begin()), solution.begin());
   VecRestoreArray(x, &entries);
-  return is_run && reason > 0;
+  return is_run ? reason : KSP_DIVERGED_NULL;
 }
 
 class DirectSolver : public LinearSolver
@@ -88,20 +98,22 @@ class DirectSolver : public LinearSolver
 public:
   explicit DirectSolver(Symmetry symmetry_of_matrix) : symmetry(symmetry_of_matrix) {}
 
-  unsigned int solve(const dealii::TrilinosWrappers::SparseMatrix &matrix,
-                     const dealii::TrilinosWrappers::MPI::Vector &right_hand_side,
-                     dealii::TrilinosWrappers::MPI::Vector &solution) override
+  std::optional<unsigned int> solve(const dealii::TrilinosWrappers::SparseMatrix &matrix,
+                                    const dealii::TrilinosWrappers::MPI::Vector &right_hand_side,
+                                    double /*relative_tolerance*/,
+                                    dealii::TrilinosWrappers::MPI::Vector &solution) override
   {
     PetscInt n_iterations = 0;
-    if (!solve_in_petsc(matrix, symmetry, right_hand_side, solution, n_iterations,
-                        [this](KSP solver)
-                        {
-                          PC factorisation = nullptr;
-                          KSPSetType(solver, KSPPREONLY);
-                          KSPGetPC(solver, &factorisation);
-                          PCSetType(factorisation, symmetry == Symmetry::symmetric ? PCCHOLESKY : PCLU);
-                          PCFactorSetMatSolverType(factorisation, MATSOLVERMUMPS);
-                        }))
+    if (!is_solved(solve_in_petsc(matrix, symmetry, right_hand_side, solution, n_iterations,
+                                  [this](KSP solver)
+                                  {
+                                    PC factorisation = nullptr;
+                                    KSPSetType(solver, KSPPREONLY);
+                                    KSPGetPC(solver, &factorisation);
+                                    PCSetType(factorisation,
+                                              symmetry == Symmetry::symmetric ? PCCHOLESKY : PCLU);
+                                    PCFactorSetMatSolverType(factorisation, MATSOLVERMUMPS);
+                                  })))
       throw NumericalError("the direct solver could not factorise the tangent: it is singular");
     return 1;
   }
@@ -114,29 +126,34 @@ private:
 class AmgSolver : public LinearSolver
 {
 public:
-  AmgSolver(unsigned int n_displacement_components, double tolerance, Symmetry symmetry_of_matrix)
-      : n_components(n_displacement_components), relative_tolerance(tolerance), symmetry(symmetry_of_matrix)
+  AmgSolver(unsigned int n_displacement_components, Symmetry symmetry_of_matrix)
+      : n_components(n_displacement_components), symmetry(symmetry_of_matrix)
   {
   }
 
-  unsigned int solve(const dealii::TrilinosWrappers::SparseMatrix &matrix,
-                     const dealii::TrilinosWrappers::MPI::Vector &right_hand_side,
-                     dealii::TrilinosWrappers::MPI::Vector &solution) override
+  std::optional<unsigned int> solve(const dealii::TrilinosWrappers::SparseMatrix &matrix,
+                                    const dealii::TrilinosWrappers::MPI::Vector &right_hand_side,
+                                    double relative_tolerance,
+                                    dealii::TrilinosWrappers::MPI::Vector &solution) override
   {
     PetscInt n_iterations = 0;
-    if (!solve_in_petsc(matrix, symmetry, right_hand_side, solution, n_iterations,
-                        [this](KSP solver)
-                        {
-                          PC multigrid = nullptr;
-                          KSPSetType(solver, symmetry == Symmetry::symmetric ? KSPCG : KSPFGMRES);
-                          KSPSetNormType(solver, KSP_NORM_UNPRECONDITIONED);
-                          KSPSetTolerances(solver, relative_tolerance, 0., PETSC_DEFAULT, 2000);
-                          KSPGetPC(solver, &multigrid);
-                          PCSetType(multigrid, PCHYPRE);
-                          PCHYPRESetType(multigrid, "boomeramg");
-                          set_multigrid_options();
-                          PCSetFromOptions(multigrid);
-                        }))
+    const KSPConvergedReason reason =
+        solve_in_petsc(matrix, symmetry, right_hand_side, solution, n_iterations,
+                       [&](KSP solver)
+                       {
+                         PC multigrid = nullptr;
+                         KSPSetType(solver, symmetry == Symmetry::symmetric ? KSPCG : KSPFGMRES);
+                         KSPSetNormType(solver, KSP_NORM_UNPRECONDITIONED);
+                         KSPSetTolerances(solver, relative_tolerance, 0., PETSC_DEFAULT, 2000);
+                         KSPGetPC(solver, &multigrid);
+                         PCSetType(multigrid, PCHYPRE);
+                         PCHYPRESetType(multigrid, "boomeramg");
+                         set_multigrid_options();
+                         PCSetFromOptions(multigrid);
+                       });
+    if (is_indefinite(reason))
+      return {};
+    if (!is_solved(reason))
       throw NumericalError(name() + " did not reach the tolerance in " + std::to_string(n_iterations) +
                            " iterations");
     return static_cast<unsigned int>(n_iterations);
@@ -163,8 +180,58 @@ private:
   }
 
   unsigned int n_components;
-  double relative_tolerance;
   Symmetry symmetry;
+};
+
+class SchwarzSolver : public LinearSolver
+{
+public:
+  explicit SchwarzSolver(std::unique_ptr<LinearSolver> solver_of_hard_systems)
+      : fallback(std::move(solver_of_hard_systems))
+  {
+  }
+
+  std::optional<unsigned int> solve(const dealii::TrilinosWrappers::SparseMatrix &matrix,
+                                    const dealii::TrilinosWrappers::MPI::Vector &right_hand_side,
+                                    double relative_tolerance,
+                                    dealii::TrilinosWrappers::MPI::Vector &solution) override
+  {
+    if (is_too_hard)
+      return fallback->solve(matrix, right_hand_side, relative_tolerance, solution);
+    PetscInt n_iterations = 0;
+    const KSPConvergedReason reason =
+        solve_in_petsc(matrix, Symmetry::symmetric, right_hand_side, solution, n_iterations,
+                       [&](KSP solver)
+                       {
+                         PC schwarz = nullptr;
+                         KSPSetType(solver, KSPCG);
+                         KSPSetNormType(solver, KSP_NORM_UNPRECONDITIONED);
+                         KSPSetTolerances(solver, relative_tolerance, 0., PETSC_DEFAULT, max_iterations);
+                         KSPGetPC(solver, &schwarz);
+                         PCSetType(schwarz, PCASM);
+                         PCASMSetType(schwarz, PC_ASM_BASIC); // the symmetric one
+                         PetscOptionsSetValue(nullptr, "-sub_pc_type", "icc");
+                       });
+    if (is_indefinite(reason))
+      return {};
+    if (is_solved(reason))
+      return static_cast<unsigned int>(n_iterations);
+    is_too_hard = true;
+    const std::optional<unsigned int> more =
+        fallback->solve(matrix, right_hand_side, relative_tolerance, solution);
+    return more ? std::optional(static_cast<unsigned int>(n_iterations) + *more) : more;
+  }
+  std::string name() const override
+  {
+    return "conjugate gradients with incomplete factorisations, or else " + fallback->name();
+  }
+
+private:
+  /// As many as cost about what multigrid does: one of its iterations costs five of these.
+  static constexpr int max_iterations = 500;
+
+  std::unique_ptr<LinearSolver> fallback;
+  bool is_too_hard = false;
 };
 } // namespace
 
@@ -173,9 +240,13 @@ std::unique_ptr<LinearSolver> make_direct_solver(Symmetry symmetry)
   return std::make_unique<DirectSolver>(symmetry);
 }
 
-std::unique_ptr<LinearSolver> make_amg_solver(unsigned int n_components, double relative_tolerance,
-                                              Symmetry symmetry)
+std::unique_ptr<LinearSolver> make_amg_solver(unsigned int n_components, Symmetry symmetry)
 {
-  return std::make_unique<AmgSolver>(n_components, relative_tolerance, symmetry);
+  return std::make_unique<AmgSolver>(n_components, symmetry);
+}
+
+std::unique_ptr<LinearSolver> make_schwarz_solver(std::unique_ptr<LinearSolver> fallback)
+{
+  return std::make_unique<SchwarzSolver>(std::move(fallback));
 }
 } // namespace signorini

@@ -53,15 +53,35 @@ QuasiStaticSolver<dim>::QuasiStaticSolver(const Discretization<dim> &the_discret
       is_body_held(held_bodies), forces(&scene_forces), parameters(quasi_static_parameters),
       run_time(&the_run_time), balance(the_discretization, supported_dofs, the_scene.n_bodies(), scene_forces,
                                        surface_map, the_run_time),
-      regularization(the_discretization.make_vector())
+      system(the_discretization, supported_dofs, scene_forces, balance.terms(), make_regularization(),
+             choose_linear_solver(), the_run_time)
 {
-  const unsigned int n_dofs = discretization->owned_dofs.size();
-  const bool is_direct = parameters.linear_solver == QuasiStaticParameters::LinearSolver::automatic
-                             ? n_dofs <= (dim == 2 ? max_n_dofs_direct_2d : max_n_dofs_direct_3d)
-                             : parameters.linear_solver == QuasiStaticParameters::LinearSolver::direct;
-  const Symmetry symmetry = forces->frictions.empty() ? Symmetry::symmetric : Symmetry::unsymmetric;
-  linear_solver = is_direct ? make_direct_solver(symmetry) : make_amg_solver(dim, 1e-8, symmetry);
+  if (surface_map)
+    longest_step = 0.25 * surface_map->surface().smallest_room();
+  for (const auto &obstacle : scene->obstacles)
+    longest_step = std::min(longest_step, 0.25 * obstacle->room());
+}
 
+template <int dim>
+std::unique_ptr<LinearSolver> QuasiStaticSolver<dim>::choose_linear_solver() const
+{
+  using Choice = QuasiStaticParameters::LinearSolver;
+  const unsigned int n_dofs = discretization->owned_dofs.size();
+  const Symmetry symmetry = forces->frictions.empty() ? Symmetry::symmetric : Symmetry::unsymmetric;
+  if (parameters.linear_solver == Choice::direct ||
+      (parameters.linear_solver == Choice::automatic &&
+       n_dofs <= (dim == 2 ? max_n_dofs_direct_2d : max_n_dofs_direct_3d)))
+    return make_direct_solver(symmetry);
+  std::unique_ptr<LinearSolver> amg = make_amg_solver(dim, symmetry);
+  return parameters.linear_solver == Choice::automatic && symmetry == Symmetry::symmetric
+             ? make_schwarz_solver(std::move(amg))
+             : std::move(amg);
+}
+
+template <int dim>
+Vector QuasiStaticSolver<dim>::make_regularization() const
+{
+  Vector regularization = discretization->make_vector();
   std::vector<double> volume(scene->n_bodies(), 0.);
   const Vector nodal_volume = make_nodal_volume(*discretization);
   for (const OwnedNode<dim> &node : discretization->owned_nodes)
@@ -73,108 +93,51 @@ QuasiStaticSolver<dim>::QuasiStaticSolver(const Discretization<dim> &the_discret
         regularization.local_element(dof) = 1e-6 * scene->materials[node.body].youngs_modulus *
                                             std::pow(volume[node.body], -2. / dim) *
                                             nodal_volume.local_element(dof);
-  if (surface_map)
-    longest_step = 0.25 * surface_map->surface().smallest_room();
-  for (const auto &obstacle : scene->obstacles)
-    longest_step = std::min(longest_step, 0.25 * obstacle->room());
+  return regularization;
 }
 
 template <int dim>
-unsigned int QuasiStaticSolver<dim>::n_searches() const
+double QuasiStaticSolver<dim>::forcing(double residual, double residual_before) const
 {
-  unsigned int n = 0;
-  for (const auto &term : balance.terms())
-    n += term->n_searches();
-  return n;
+  // S. C. Eisenstat, H. F. Walker, SIAM J. Sci. Comput. 17, 1996, choice 2: as exact as Newton's method
+  // can use. Where nothing makes the next system another, one solve has to do.
+  constexpr double exact = 1e-8, coarsest = 0.1;
+  if (forces->contacts.empty() && forces->elasticity->has_constant_tangent())
+    return exact;
+  const double ratio = residual / residual_before;
+  const double enough = std::max(exact, 0.1 * parameters.tolerance / residual);
+  return std::clamp(0.9 * ratio * ratio, std::min(enough, coarsest), coarsest);
 }
 
 template <int dim>
-bool QuasiStaticSolver<dim>::make_constraints(double old_time, double time)
+unsigned int QuasiStaticSolver<dim>::compute_increment(double residual, double residual_before,
+                                                       Vector &increment)
 {
-  times_of_constraints = {old_time, time};
-  relevant_dofs = discretization->relevant_dofs;
-  for (const auto &contact : forces->contacts)
-    relevant_dofs.add_indices(contact->nodes().relevant_dofs());
-  relevant_dofs.compress();
-  bool do_supports_move = false;
-  constraints.reinit(relevant_dofs);
-  constraints.merge(discretization->hanging_constraints,
-                    dealii::AffineConstraints<double>::no_conflicts_allowed, true);
-  for (const auto &contact : forces->contacts)
-    contact->nodes().add_remote_hanging_constraints(constraints);
-  for (const auto &entry : supports->entries())
+  const double tolerance = forcing(residual, residual_before);
+  // Far from equilibrium bodies may lie so deep in each other that the exact tangent is indefinite; near it
+  // only the exact one converges fast.
+  if (residual < 0.01)
+    tangent = ContactTangent::exact;
+  std::optional<unsigned int> n_iterations = system.solve(balance.residual(), tangent, tolerance, increment);
+  if (!n_iterations && tangent == ContactTangent::exact)
   {
-    const double increment = supports->value(entry, time) - supports->value(entry, old_time);
-    do_supports_move |= increment != 0.;
-    if (constraints.can_store_line(entry.dof) && !constraints.is_constrained(entry.dof))
-    {
-      constraints.add_line(entry.dof);
-      constraints.set_inhomogeneity(entry.dof, increment);
-    }
+    tangent = ContactTangent::convex;
+    n_iterations = system.solve(balance.residual(), tangent, tolerance, increment);
   }
-  for (const dealii::types::global_dof_index dof : discretization->unused_dofs)
-    constraints.add_line(dof);
-  constraints.close();
-  system.constraints = &constraints;
-  return do_supports_move;
+  if (!n_iterations)
+    throw NumericalError("the tangent of the bodies is indefinite, as of one that buckles");
+  return *n_iterations;
 }
 
 template <int dim>
-void QuasiStaticSolver<dim>::rebuild_matrix()
+void QuasiStaticSolver<dim>::predict(Vector &increment)
 {
-  make_constraints(times_of_constraints.first, times_of_constraints.second); // other facets have come near
-  dealii::TrilinosWrappers::SparsityPattern pattern(discretization->owned_dofs, discretization->owned_dofs,
-                                                    relevant_dofs, discretization->communicator());
-  discretization->add_couplings(constraints, pattern);
-  for (const auto &term : balance.terms())
-    term->add_couplings(constraints, pattern);
-  for (const dealii::types::global_dof_index dof : discretization->unused_dofs)
-    pattern.add(dof, dof);
-  pattern.compress();
-  system.matrix.reinit(pattern);
-  system.right_hand_side.reinit(discretization->owned_dofs, discretization->communicator());
-  n_searches_of_matrix = n_searches();
-}
-
-template <int dim>
-unsigned int QuasiStaticSolver<dim>::compute_increment(DrivenBy cause, Vector &increment)
-{
-  assemble(cause);
-  const auto section = run_time->enter("linear solver");
-  const auto &partitioner = *balance.residual().get_partitioner();
-  dealii::TrilinosWrappers::MPI::Vector solution(discretization->owned_dofs, discretization->communicator());
-  const unsigned int n_iterations = linear_solver->solve(system.matrix, system.right_hand_side, solution);
-  constraints.distribute(solution);
-  for (unsigned int i = 0; i < increment.locally_owned_size(); ++i)
-    increment.local_element(i) = solution[partitioner.local_to_global(i)];
-  discretization->distribute(increment);
-  return n_iterations;
-}
-
-template <int dim>
-void QuasiStaticSolver<dim>::assemble(DrivenBy cause)
-{
-  const auto section = run_time->enter("assembly");
-  if (n_searches() != n_searches_of_matrix)
-    rebuild_matrix();
-  system.matrix = 0.;
-  system.right_hand_side = 0.;
-  for (const auto &term : balance.terms())
-    term->add_tangent(system);
-  for (const auto &friction : forces->frictions)
-    friction->add_tangent(system);
-  const auto &partitioner = *balance.residual().get_partitioner();
-  for (unsigned int i = 0; i < balance.residual().locally_owned_size(); ++i)
-  {
-    const dealii::types::global_dof_index dof = partitioner.local_to_global(i);
-    if (cause == DrivenBy::residual)
-      system.right_hand_side[dof] += balance.residual().local_element(i);
-    system.matrix.add(dof, dof, constraints.is_constrained(dof) ? 0. : regularization.local_element(i));
-  }
-  for (const dealii::types::global_dof_index dof : discretization->unused_dofs)
-    system.matrix.add(dof, dof, 1.);
-  system.matrix.compress(dealii::VectorOperation::add);
-  system.right_hand_side.compress(dealii::VectorOperation::add);
+  // Newton's method puts right what is left.
+  constexpr double tolerance = 1e-3;
+  const Vector none = discretization->make_vector();
+  if (!system.solve(none, ContactTangent::exact, tolerance, increment) &&
+      !system.solve(none, ContactTangent::convex, tolerance, increment))
+    throw NumericalError("the tangent of the bodies is indefinite, as of one that buckles");
 }
 
 template <int dim>
@@ -195,7 +158,7 @@ double QuasiStaticSolver<dim>::search_along(const Vector &increment, State &stat
   const double slope = direction * newton_slope;
 
   const double energy = balance.energy();
-  const unsigned int searches = n_searches();
+  const unsigned int searches = system.n_searches();
   const Vector start = state.displacement;
   double step = limit_of_step(increment);
   for (unsigned int trial = 0; trial < 30; ++trial, step *= 0.5)
@@ -207,7 +170,7 @@ double QuasiStaticSolver<dim>::search_along(const Vector &increment, State &stat
     const double new_energy = balance.energy();
     if (!std::isfinite(new_energy))
       continue;
-    if (n_searches() != searches)
+    if (system.n_searches() != searches)
       return step;
     const double new_slope = -direction * (balance.residual() * increment);
     const double round_off = 1e-10 * (std::abs(energy) + std::abs(new_energy));
@@ -226,7 +189,7 @@ void QuasiStaticSolver<dim>::move_supports(double time, State &state)
   // Newton's.
   const double old_time = state.time;
   state.time = time;
-  const bool do_supports_move = make_constraints(old_time, time);
+  const bool do_supports_move = system.constrain(old_time, time);
   for (unsigned int i = 0; i < scene->obstacles.size(); ++i)
   {
     const ObstacleMotion<dim> &motion = scene->obstacle_motions[i];
@@ -240,13 +203,13 @@ void QuasiStaticSolver<dim>::move_supports(double time, State &state)
   if (!do_supports_move)
     return;
   Vector increment = discretization->make_vector();
-  compute_increment(DrivenBy::supports, increment);
+  predict(increment);
   if (longest_step > 0. && increment.linfty_norm() > 3. * longest_step)
     throw NumericalError("the supports move so far in one step that surfaces could pass through each other");
   state.displacement += increment;
   supports->impose(time, state.displacement);
   discretization->distribute(state.displacement);
-  make_constraints(time, time);
+  system.constrain(time, time);
 }
 
 template <int dim>
@@ -281,7 +244,7 @@ bool QuasiStaticSolver<dim>::find_minimum(State &state, NewtonReport &progress, 
     const Hold<dim> hold(*forces);
     if (!forces->frictions.empty())
       balance.compute(state);
-    progress.linear_iterations = compute_increment(DrivenBy::residual, increment);
+    progress.linear_iterations = compute_increment(progress.residual, residual_before, increment);
     progress.step_length = search_along(increment, state);
     if (progress.step_length == 0.)
       give_up("no step along Newton's direction lowers the energy", "use more load steps");

@@ -11,11 +11,21 @@
 
 namespace signorini
 {
+/// What contact adds to tangents. With depth d and stiffness k a point's energy ½ k d² has the Hessian
+/// k (∇d∇dᵀ + d ∇∇d), whose second part may be negative: far from equilibrium, where bodies lie deep in each
+/// other, by more than all that holds them.
+enum class ContactTangent
+{
+  exact,
+  convex ///< k ∇d∇dᵀ alone
+};
+
 /// A linear system for an increment of the displacement, with the constraints to assemble it under.
 struct TangentSystem
 {
   const dealii::AffineConstraints<double> *constraints = nullptr;
   dealii::TrilinosWrappers::SparseMatrix matrix;
+  ContactTangent contact_tangent = ContactTangent::exact;
   dealii::TrilinosWrappers::MPI::Vector right_hand_side; ///< receives what inhomogeneous constraints bring
 };
 
@@ -59,6 +69,9 @@ public:
                              dealii::TrilinosWrappers::SparsityPattern &) const
   {
   }
+
+  /// Whether the Hessian is the same at all states.
+  virtual bool has_constant_tangent() const { return false; }
 
   /// Adds the Hessian of the energy.
   virtual void add_tangent(TangentSystem &) const {}

@@ -28,6 +28,8 @@ public:
   void set_step_start(const Vector *start) { step_start = start; }
   double energy() const override;
   void add_force(Vector &force) const override;
+  /// Linear elasticity's, unless forces are those of a step.
+  bool has_constant_tangent() const override { return step_start == nullptr && !is_nonlinear(); }
   void add_tangent(TangentSystem &system) const override;
 
   /// The row-major tangent of every one of these own cells, as `visit(cell, tangent)`.

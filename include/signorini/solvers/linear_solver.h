@@ -5,8 +5,8 @@
 #include <deal.II/lac/trilinos_vector.h>
 
 #include <memory>
+#include <optional>
 #include <string>
-#include <vector>
 
 namespace signorini
 {
@@ -23,11 +23,14 @@ class LinearSolver
 public:
   virtual ~LinearSolver() = default;
 
-  /// Returns the number of iterations, 1 for direct solvers. Throws NumericalError if it fails (on all
+  /// Solves to |b − A x| ≤ `relative_tolerance` |b|, factorisations to round-off. Returns the number of
+  /// iterations, 1 for factorisations; nothing where conjugate gradients met a direction in which a matrix
+  /// said to be symmetric is not positive definite (on all ranks). Throws NumericalError if it fails (on all
   /// ranks).
-  virtual unsigned int solve(const dealii::TrilinosWrappers::SparseMatrix &matrix,
-                             const dealii::TrilinosWrappers::MPI::Vector &right_hand_side,
-                             dealii::TrilinosWrappers::MPI::Vector &solution) = 0;
+  virtual std::optional<unsigned int> solve(const dealii::TrilinosWrappers::SparseMatrix &matrix,
+                                            const dealii::TrilinosWrappers::MPI::Vector &right_hand_side,
+                                            double relative_tolerance,
+                                            dealii::TrilinosWrappers::MPI::Vector &solution) = 0;
   virtual std::string name() const = 0;
 };
 
@@ -36,6 +39,11 @@ std::unique_ptr<LinearSolver> make_direct_solver(Symmetry symmetry);
 
 /// Conjugate gradients, or GMRES, with hypre's BoomerAMG, whose iteration counts do not grow with the contact
 /// stiffness. `n_components`: of the displacement, numbered together at each node.
-std::unique_ptr<LinearSolver> make_amg_solver(unsigned int n_components, double relative_tolerance,
-                                              Symmetry symmetry);
+std::unique_ptr<LinearSolver> make_amg_solver(unsigned int n_components, Symmetry symmetry);
+
+/// Conjugate gradients with incomplete factorisations (Cholesky's, no fill) of the ranks' parts of the
+/// matrix, which overlap by one layer. Three to four times faster than multigrid for contact of bulky bodies
+/// up to millions of unknowns (doc/theory.md, section 9). From the first system on that takes too many
+/// iterations, as of slender bodies, `fallback` solves in its place.
+std::unique_ptr<LinearSolver> make_schwarz_solver(std::unique_ptr<LinearSolver> fallback);
 } // namespace signorini

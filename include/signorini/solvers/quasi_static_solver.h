@@ -3,7 +3,7 @@
 
 #include "signorini/base/exceptions.h"
 #include "signorini/solvers/force_balance.h"
-#include "signorini/solvers/linear_solver.h"
+#include "signorini/solvers/newton_system.h"
 
 #include <functional>
 
@@ -50,7 +50,7 @@ public:
   /// disturbed an equilibrium, relative like the tolerance: an error of integration.
   double renewal_residual() const { return disturbance; }
 
-  std::string linear_solver_name() const { return linear_solver->name(); }
+  std::string linear_solver_name() const { return system.linear_solver_name(); }
 
   /// Forces that the supports exert at the last equilibrium, on supported entries only [N].
   const Vector &reactions() const { return balance.reactions(); }
@@ -66,12 +66,6 @@ public:
   }
 
 private:
-  enum class DrivenBy
-  {
-    supports, ///< their increments alone
-    residual
-  };
-
   void find_equilibrium(double time, State &state, const Report &report);
   /// Newton's method with the present points of integration. Returns whether the residual stopped falling
   /// before the tolerance, at round-off. Throws NumericalError.
@@ -81,33 +75,33 @@ private:
   /// Throws NumericalError with what is known of the body farthest from equilibrium.
   [[noreturn]] void give_up(const std::string &why, const std::string &advice) const;
 
-  /// Returns whether any support moves between the two times.
-  bool make_constraints(double old_time, double time);
-  void rebuild_matrix();
-  void assemble(DrivenBy cause);
-  unsigned int compute_increment(DrivenBy cause, Vector &increment);
+  /// What holds bodies that nothing touches [N/m].
+  Vector make_regularization() const;
+  std::unique_ptr<LinearSolver> choose_linear_solver() const;
+
+  /// How exactly to solve the linear system of an iteration, relative.
+  double forcing(double residual, double residual_before) const;
+  /// Newton's direction for the present forces. Returns the number of linear iterations. Throws
+  /// NumericalError.
+  unsigned int compute_increment(double residual, double residual_before, Vector &increment);
+  /// What the supports' increments alone bring. Throws NumericalError.
+  void predict(Vector &increment);
   void move_supports(double time, State &state);
   double limit_of_step(const Vector &increment) const;
   double search_along(const Vector &increment, State &state);
-  unsigned int n_searches() const;
 
   const Discretization<dim> *discretization;
   const SupportedDofs<dim> *supports;
   const Scene<dim> *scene;
   std::vector<bool> is_body_held;
   const SceneForces<dim> *forces;
-  dealii::IndexSet relevant_dofs; ///< to this rank's cells, or to contact
-  std::pair<double, double> times_of_constraints;
   QuasiStaticParameters parameters;
   RunTime *run_time;
-  std::unique_ptr<LinearSolver> linear_solver;
 
   ForceBalance<dim> balance;
-  Vector regularization;
-  dealii::AffineConstraints<double> constraints;
-  TangentSystem system;
-  unsigned int n_searches_of_matrix = static_cast<unsigned int>(-1);
-  double longest_step = 0.; ///< no node moves farther in one iteration [m]; 0: no limit
+  NewtonSystem<dim> system;
+  ContactTangent tangent = ContactTangent::exact; ///< of the last iteration
+  double longest_step = 0.;                       ///< no node moves farther in one iteration [m]; 0: no limit
   double disturbance = 0.;
   Complaint complaint{""};
   unsigned int total_iterations = 0;

@@ -193,7 +193,8 @@ template <int dim>
 void ContactForce<dim>::add_tangent(TangentSystem &system) const
 {
   potential.for_each_tangent([&](const std::vector<unsigned int> &nodes, const Eigen::MatrixXd &block)
-                             { this->add_block(nodes, block, system); });
+                             { this->add_block(nodes, block, system); },
+                             system.contact_tangent == ContactTangent::convex);
 }
 
 template <int dim>

@@ -219,8 +219,8 @@ double ContactPotential<dim>::add_damping_forces(const std::vector<SpatialVector
 
 template <int dim>
 void ContactPotential<dim>::for_each_tangent(
-    const std::function<void(const std::vector<unsigned int> &nodes, const Eigen::MatrixXd &block)> &add)
-    const
+    const std::function<void(const std::vector<unsigned int> &nodes, const Eigen::MatrixXd &block)> &add,
+    bool is_convex) const
 {
   std::vector<unsigned int> nodes;
   Eigen::MatrixXd block;
@@ -229,7 +229,7 @@ void ContactPotential<dim>::for_each_tangent(
       [&](const NearPair &near)
       {
         nodes.assign(near.stencil.node.begin(), near.stencil.node.begin() + near.stencil.n_nodes);
-        if (is_linear())
+        if (is_linear() || is_convex)
           compute_obstacle_tangent(near.pair, near.foot, near.stencil,
                                    SpatialTensor<dim>(SpatialTensor<dim>::Zero()), block);
         else if (near.target != nullptr)
