@@ -30,104 +30,164 @@ using OwnedMatrix = Owned<Mat, MatDestroy>;
 using OwnedVector = Owned<Vec, VecDestroy>;
 using OwnedSolver = Owned<KSP, KSPDestroy>;
 
-/// The same matrix in PETSc's storage, on the same rows.
-void copy(const dealii::TrilinosWrappers::SparseMatrix &matrix, Symmetry symmetry, Mat *copied)
+/// A matrix in PETSc's storage, on the same rows, with the vectors and the solver that go with it.
+struct PetscSystem
 {
-  const Epetra_CrsMatrix &epetra = matrix.trilinos_matrix();
-  std::vector<PetscInt> row_starts{0}, columns;
-  std::vector<PetscScalar> values;
-  for (int row = 0; row < epetra.NumMyRows(); ++row)
-  {
-    int n_entries = 0, *local_columns = nullptr;
-    double *row_values = nullptr;
-    epetra.ExtractMyRowView(row, n_entries, row_values, local_columns);
-    for (int i = 0; i < n_entries; ++i)
-      columns.push_back(epetra.GCID(local_columns[i]));
-    values.insert(values.end(), row_values, row_values + n_entries);
-    row_starts.push_back(static_cast<PetscInt>(columns.size()));
-  }
-  const auto n = static_cast<PetscInt>(matrix.m());
-  MatCreateMPIAIJWithArrays(matrix.get_mpi_communicator(), epetra.NumMyRows(), epetra.NumMyRows(), n, n,
-                            row_starts.data(), columns.data(), values.data(), copied);
-  if (symmetry == Symmetry::symmetric)
-    MatSetOption(*copied, MAT_SPD, PETSC_TRUE);
-}
-
-bool is_solved(KSPConvergedReason reason)
-{
-  return reason > 0;
-}
-
-bool is_indefinite(KSPConvergedReason reason)
-{
-  return reason == KSP_DIVERGED_INDEFINITE_MAT || reason == KSP_DIVERGED_INDEFINITE_PC;
-}
-
-/// Solves with a PETSc solver that `configure(solver)` has set up. Returns why it ended.
-template <typename Configure>
-KSPConvergedReason solve_in_petsc(const dealii::TrilinosWrappers::SparseMatrix &matrix, Symmetry symmetry,
-                                  const dealii::TrilinosWrappers::MPI::Vector &right_hand_side,
-                                  dealii::TrilinosWrappers::MPI::Vector &solution, PetscInt &n_iterations,
-                                  const Configure &configure)
-{
-  OwnedMatrix system;
-  copy(matrix, symmetry, &system);
+  OwnedMatrix matrix;
   OwnedVector x, b;
-  MatCreateVecs(system, &x, &b);
-  PetscScalar *entries = nullptr;
-  VecGetArray(b, &entries);
-  std::copy(right_hand_side.begin(), right_hand_side.end(), entries);
-  VecRestoreArray(b, &entries);
-
   OwnedSolver solver;
-  KSPCreate(matrix.get_mpi_communicator(), &solver);
-  KSPSetOperators(solver, system, system);
-  configure(static_cast<KSP>(solver));
-  const bool is_run = KSPSolve(solver, b, x) == 0;
-  KSPConvergedReason reason = KSP_DIVERGED_NULL;
-  KSPGetConvergedReason(solver, &reason);
-  KSPGetIterationNumber(solver, &n_iterations);
-  VecGetArray(x, &entries);
-  std::copy(entries, entries + (solution.end() - solution.begin()), solution.begin());
-  VecRestoreArray(x, &entries);
-  return is_run ? reason : KSP_DIVERGED_NULL;
-}
+};
 
-class DirectSolver : public LinearSolver
+/// The rows of a matrix of Trilinos as PETSc takes them, with global columns.
+class Rows
 {
 public:
-  explicit DirectSolver(Symmetry symmetry_of_matrix) : symmetry(symmetry_of_matrix) {}
+  explicit Rows(const dealii::TrilinosWrappers::SparseMatrix &matrix) : epetra(matrix.trilinos_matrix()) {}
+
+  int size() const { return epetra.NumMyRows(); }
+
+  /// Makes `columns` those of a row and returns its values.
+  const double *take(int row, std::vector<PetscInt> &columns) const
+  {
+    int n_entries = 0, *local_columns = nullptr;
+    double *values = nullptr;
+    epetra.ExtractMyRowView(row, n_entries, values, local_columns);
+    columns.resize(n_entries);
+    for (int i = 0; i < n_entries; ++i)
+      columns[i] = epetra.GCID(local_columns[i]);
+    return values;
+  }
+
+private:
+  const Epetra_CrsMatrix &epetra;
+};
+
+/// A solver of PETSc's. Keeps matrix, symbolic factorisations and memory from one system to the next of the
+/// same pattern.
+class PetscSolver : public LinearSolver
+{
+public:
+  void forget_pattern() override { system.reset(); }
+
+protected:
+  explicit PetscSolver(Symmetry symmetry_of_matrix) : symmetry(symmetry_of_matrix) {}
+
+  static bool is_solved(KSPConvergedReason reason) { return reason > 0; }
+  static bool is_indefinite(KSPConvergedReason reason)
+  {
+    return reason == KSP_DIVERGED_INDEFINITE_MAT || reason == KSP_DIVERGED_INDEFINITE_PC;
+  }
+
+  /// Returns why it ended.
+  KSPConvergedReason run(const dealii::TrilinosWrappers::SparseMatrix &matrix,
+                         const dealii::TrilinosWrappers::MPI::Vector &right_hand_side,
+                         double relative_tolerance, int max_iterations,
+                         dealii::TrilinosWrappers::MPI::Vector &solution)
+  {
+    if (!system)
+      make_system(matrix);
+    else
+      set_values(matrix);
+    PetscScalar *entries = nullptr;
+    VecGetArray(system->b, &entries);
+    std::copy(right_hand_side.begin(), right_hand_side.end(), entries);
+    VecRestoreArray(system->b, &entries);
+    KSPSetOperators(system->solver, system->matrix, system->matrix);
+    KSPSetTolerances(system->solver, relative_tolerance, 0., PETSC_DEFAULT, max_iterations);
+    const bool is_run = KSPSolve(system->solver, system->b, system->x) == 0;
+    KSPConvergedReason reason = KSP_DIVERGED_NULL;
+    KSPGetConvergedReason(system->solver, &reason);
+    PetscInt n = 0;
+    KSPGetIterationNumber(system->solver, &n);
+    n_iterations = static_cast<unsigned int>(n);
+    VecGetArray(system->x, &entries);
+    std::copy(entries, entries + (solution.end() - solution.begin()), solution.begin());
+    VecRestoreArray(system->x, &entries);
+    return is_run ? reason : KSP_DIVERGED_NULL;
+  }
+
+  const Symmetry symmetry;
+  unsigned int n_iterations = 0; ///< of the last run
+
+private:
+  /// Sets up a new solver.
+  virtual void configure(KSP solver) const = 0;
+
+  void make_system(const dealii::TrilinosWrappers::SparseMatrix &matrix)
+  {
+    system = std::make_unique<PetscSystem>();
+    const Rows rows(matrix);
+    std::vector<PetscInt> row_starts{0}, columns, columns_of_row;
+    std::vector<PetscScalar> values;
+    for (int row = 0; row < rows.size(); ++row)
+    {
+      const double *values_of_row = rows.take(row, columns_of_row);
+      columns.insert(columns.end(), columns_of_row.begin(), columns_of_row.end());
+      values.insert(values.end(), values_of_row, values_of_row + columns_of_row.size());
+      row_starts.push_back(static_cast<PetscInt>(columns.size()));
+    }
+    const MPI_Comm communicator = matrix.get_mpi_communicator();
+    const auto n = static_cast<PetscInt>(matrix.m());
+    MatCreateMPIAIJWithArrays(communicator, rows.size(), rows.size(), n, n, row_starts.data(), columns.data(),
+                              values.data(), &system->matrix);
+    if (symmetry == Symmetry::symmetric)
+      MatSetOption(system->matrix, MAT_SPD, PETSC_TRUE);
+    MatCreateVecs(system->matrix, &system->x, &system->b);
+    KSPCreate(communicator, &system->solver);
+    configure(system->solver);
+  }
+
+  void set_values(const dealii::TrilinosWrappers::SparseMatrix &matrix)
+  {
+    const Rows rows(matrix);
+    PetscInt row = 0, end = 0;
+    MatGetOwnershipRange(system->matrix, &row, &end);
+    std::vector<PetscInt> columns;
+    for (int i = 0; i < rows.size(); ++i, ++row)
+    {
+      const double *values = rows.take(i, columns);
+      MatSetValues(system->matrix, 1, &row, static_cast<PetscInt>(columns.size()), columns.data(), values,
+                   INSERT_VALUES);
+    }
+    MatAssemblyBegin(system->matrix, MAT_FINAL_ASSEMBLY);
+    MatAssemblyEnd(system->matrix, MAT_FINAL_ASSEMBLY);
+  }
+
+  std::unique_ptr<PetscSystem> system;
+};
+
+class DirectSolver : public PetscSolver
+{
+public:
+  explicit DirectSolver(Symmetry symmetry_of_matrix) : PetscSolver(symmetry_of_matrix) {}
 
   std::optional<unsigned int> solve(const dealii::TrilinosWrappers::SparseMatrix &matrix,
                                     const dealii::TrilinosWrappers::MPI::Vector &right_hand_side,
-                                    double /*relative_tolerance*/,
+                                    double relative_tolerance,
                                     dealii::TrilinosWrappers::MPI::Vector &solution) override
   {
-    PetscInt n_iterations = 0;
-    if (!is_solved(solve_in_petsc(matrix, symmetry, right_hand_side, solution, n_iterations,
-                                  [this](KSP solver)
-                                  {
-                                    PC factorisation = nullptr;
-                                    KSPSetType(solver, KSPPREONLY);
-                                    KSPGetPC(solver, &factorisation);
-                                    PCSetType(factorisation,
-                                              symmetry == Symmetry::symmetric ? PCCHOLESKY : PCLU);
-                                    PCFactorSetMatSolverType(factorisation, MATSOLVERMUMPS);
-                                  })))
+    if (!is_solved(run(matrix, right_hand_side, relative_tolerance, 1, solution)))
       throw NumericalError("the direct solver could not factorise the tangent: it is singular");
     return 1;
   }
   std::string name() const override { return "direct (MUMPS)"; }
 
 private:
-  Symmetry symmetry;
+  void configure(KSP solver) const override
+  {
+    PC factorisation = nullptr;
+    KSPSetType(solver, KSPPREONLY);
+    KSPGetPC(solver, &factorisation);
+    PCSetType(factorisation, symmetry == Symmetry::symmetric ? PCCHOLESKY : PCLU);
+    PCFactorSetMatSolverType(factorisation, MATSOLVERMUMPS);
+  }
 };
 
-class AmgSolver : public LinearSolver
+class AmgSolver : public PetscSolver
 {
 public:
   AmgSolver(unsigned int n_displacement_components, Symmetry symmetry_of_matrix)
-      : n_components(n_displacement_components), symmetry(symmetry_of_matrix)
+      : PetscSolver(symmetry_of_matrix), n_components(n_displacement_components)
   {
   }
 
@@ -136,27 +196,13 @@ public:
                                     double relative_tolerance,
                                     dealii::TrilinosWrappers::MPI::Vector &solution) override
   {
-    PetscInt n_iterations = 0;
-    const KSPConvergedReason reason =
-        solve_in_petsc(matrix, symmetry, right_hand_side, solution, n_iterations,
-                       [&](KSP solver)
-                       {
-                         PC multigrid = nullptr;
-                         KSPSetType(solver, symmetry == Symmetry::symmetric ? KSPCG : KSPFGMRES);
-                         KSPSetNormType(solver, KSP_NORM_UNPRECONDITIONED);
-                         KSPSetTolerances(solver, relative_tolerance, 0., PETSC_DEFAULT, 2000);
-                         KSPGetPC(solver, &multigrid);
-                         PCSetType(multigrid, PCHYPRE);
-                         PCHYPRESetType(multigrid, "boomeramg");
-                         set_multigrid_options();
-                         PCSetFromOptions(multigrid);
-                       });
+    const KSPConvergedReason reason = run(matrix, right_hand_side, relative_tolerance, 2000, solution);
     if (is_indefinite(reason))
       return {};
     if (!is_solved(reason))
       throw NumericalError(name() + " did not reach the tolerance in " + std::to_string(n_iterations) +
                            " iterations");
-    return static_cast<unsigned int>(n_iterations);
+    return n_iterations;
   }
   std::string name() const override
   {
@@ -164,6 +210,18 @@ public:
   }
 
 private:
+  void configure(KSP solver) const override
+  {
+    PC multigrid = nullptr;
+    KSPSetType(solver, symmetry == Symmetry::symmetric ? KSPCG : KSPFGMRES);
+    KSPSetNormType(solver, KSP_NORM_UNPRECONDITIONED);
+    KSPGetPC(solver, &multigrid);
+    PCSetType(multigrid, PCHYPRE);
+    PCHYPRESetType(multigrid, "boomeramg");
+    set_multigrid_options();
+    PCSetFromOptions(multigrid);
+  }
+
   /// Sparse coarse levels: hypre's own defaults fill them up in 3-D, at six to nine times the cost of a
   /// cycle.
   void set_multigrid_options() const
@@ -180,14 +238,13 @@ private:
   }
 
   unsigned int n_components;
-  Symmetry symmetry;
 };
 
-class SchwarzSolver : public LinearSolver
+class SchwarzSolver : public PetscSolver
 {
 public:
   explicit SchwarzSolver(std::unique_ptr<LinearSolver> solver_of_hard_systems)
-      : fallback(std::move(solver_of_hard_systems))
+      : PetscSolver(Symmetry::symmetric), fallback(std::move(solver_of_hard_systems))
   {
   }
 
@@ -198,28 +255,20 @@ public:
   {
     if (is_too_hard)
       return fallback->solve(matrix, right_hand_side, relative_tolerance, solution);
-    PetscInt n_iterations = 0;
     const KSPConvergedReason reason =
-        solve_in_petsc(matrix, Symmetry::symmetric, right_hand_side, solution, n_iterations,
-                       [&](KSP solver)
-                       {
-                         PC schwarz = nullptr;
-                         KSPSetType(solver, KSPCG);
-                         KSPSetNormType(solver, KSP_NORM_UNPRECONDITIONED);
-                         KSPSetTolerances(solver, relative_tolerance, 0., PETSC_DEFAULT, max_iterations);
-                         KSPGetPC(solver, &schwarz);
-                         PCSetType(schwarz, PCASM);
-                         PCASMSetType(schwarz, PC_ASM_BASIC); // the symmetric one
-                         PetscOptionsSetValue(nullptr, "-sub_pc_type", "icc");
-                       });
+        run(matrix, right_hand_side, relative_tolerance, max_iterations, solution);
     if (is_indefinite(reason))
       return {};
     if (is_solved(reason))
-      return static_cast<unsigned int>(n_iterations);
+      return n_iterations;
     is_too_hard = true;
-    const std::optional<unsigned int> more =
-        fallback->solve(matrix, right_hand_side, relative_tolerance, solution);
-    return more ? std::optional(static_cast<unsigned int>(n_iterations) + *more) : more;
+    PetscSolver::forget_pattern();
+    return fallback->solve(matrix, right_hand_side, relative_tolerance, solution);
+  }
+  void forget_pattern() override
+  {
+    PetscSolver::forget_pattern();
+    fallback->forget_pattern();
   }
   std::string name() const override
   {
@@ -227,6 +276,20 @@ public:
   }
 
 private:
+  void configure(KSP solver) const override
+  {
+    KSPSetType(solver, KSPCG);
+    // The energy of the error, not the norm of forces: those of stiff contact would hide all others.
+    KSPSetNormType(solver, KSP_NORM_NATURAL);
+    PC schwarz = nullptr;
+    KSPGetPC(solver, &schwarz);
+    PetscMPIInt n_ranks = 1;
+    MPI_Comm_size(PetscObjectComm(reinterpret_cast<PetscObject>(solver)), &n_ranks);
+    PCSetType(schwarz, n_ranks == 1 ? PCBJACOBI : PCASM);
+    PCASMSetType(schwarz, PC_ASM_BASIC); // the symmetric one; for PCASM alone
+    PetscOptionsSetValue(nullptr, "-sub_pc_type", "icc");
+  }
+
   /// As many as cost about what multigrid does: one of its iterations costs five of these.
   static constexpr int max_iterations = 500;
 

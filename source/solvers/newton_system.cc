@@ -68,6 +68,7 @@ void NewtonSystem<dim>::rebuild_matrix()
     pattern.add(dof, dof);
   pattern.compress();
   constant_part.clear();
+  linear_solver->forget_pattern();
   system.matrix.reinit(pattern);
   system.right_hand_side.reinit(discretization->owned_dofs, discretization->communicator());
   n_searches_of_matrix = n_searches();

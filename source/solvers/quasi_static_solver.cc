@@ -101,22 +101,24 @@ double QuasiStaticSolver<dim>::forcing(double residual, double residual_before) 
 {
   // S. C. Eisenstat, H. F. Walker, SIAM J. Sci. Comput. 17, 1996, choice 2: as exact as Newton's method
   // can use. Where nothing makes the next system another, one solve has to do.
-  constexpr double exact = 1e-8, coarsest = 0.1;
+  constexpr double exact = 1e-8, coarsest = 0.01;
   if (forces->contacts.empty() && forces->elasticity->has_constant_tangent())
     return exact;
-  const double ratio = residual / residual_before;
+  const double ratio = std::min(1., residual / residual_before);
   const double enough = std::max(exact, 0.1 * parameters.tolerance / residual);
-  return std::clamp(0.9 * ratio * ratio, std::min(enough, coarsest), coarsest);
+  return std::min(coarsest, std::max(enough, 0.9 * ratio * ratio));
 }
 
 template <int dim>
 unsigned int QuasiStaticSolver<dim>::compute_increment(double residual, double residual_before,
                                                        Vector &increment)
 {
-  const double tolerance = forcing(residual, residual_before);
+  const double tolerance = residual_before < std::numeric_limits<double>::max()
+                               ? forcing(residual, residual_before)
+                               : forcing(residual, residual);
   // Far from equilibrium bodies may lie so deep in each other that the exact tangent is indefinite; near it
   // only the exact one converges fast.
-  if (residual < 0.01)
+  if (residual < 0.2)
     tangent = ContactTangent::exact;
   std::optional<unsigned int> n_iterations = system.solve(balance.residual(), tangent, tolerance, increment);
   if (!n_iterations && tangent == ContactTangent::exact)

@@ -31,6 +31,10 @@ public:
                                             const dealii::TrilinosWrappers::MPI::Vector &right_hand_side,
                                             double relative_tolerance,
                                             dealii::TrilinosWrappers::MPI::Vector &solution) = 0;
+
+  /// Must be called before a matrix with another sparsity pattern is solved with.
+  virtual void forget_pattern() = 0;
+
   virtual std::string name() const = 0;
 };
 
