@@ -64,13 +64,16 @@ build()
   fi
 }
 
-# Open MPI refuses root by default, and its single-copy messages need rights that containers withhold.
+# Open MPI refuses root by default, and its single-copy messages need rights that containers withhold: version 4 calls
+# them vader's, version 5 smsc. All ranks are on this machine; version 5 complains of network cards that it need not use.
 mpi_environment()
 {
   if [ "$(id -u)" -eq 0 ]; then
     export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
     export OMPI_MCA_btl_vader_single_copy_mechanism=${OMPI_MCA_btl_vader_single_copy_mechanism:-none}
+    export OMPI_MCA_smsc=${OMPI_MCA_smsc:-^cma}
   fi
+  export OMPI_MCA_btl_tcp_if_include=${OMPI_MCA_btl_tcp_if_include:-lo}
 }
 
 # thread_environment N_RANKS: ranks are our parallelism; alone, the dense kernels of direct solvers gain from two threads.

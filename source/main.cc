@@ -13,7 +13,8 @@
 int main(int argc, char **argv)
 {
   using namespace signorini;
-  dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+  int n_for_libraries = 1; // PETSc would look for its own options among ours and complain of what is left
+  dealii::Utilities::MPI::MPI_InitFinalize mpi(n_for_libraries, argv, 1);
   const bool is_first = dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;
   try
   {

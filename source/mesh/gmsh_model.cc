@@ -154,6 +154,10 @@ void make_gmsh_mesh(const GmshSession &gmsh, const std::string &file, const unsi
       {"Mesh.Optimize", 1.},
       {"Mesh.OptimizeThreshold", 0.5},
       {"Mesh.SecondOrderLinear", 0.}};
+  // Since Gmsh 4.9 its own size comes behind the place.
+  const auto size_at = [&size](int /*dimension*/, int /*tag*/, double x, double y, double z, auto...) {
+    return size({x, y, z});
+  };
   gmsh.run(Complaint("the shape cannot be meshed")
                .at(file)
                .advise("try another 'Element size', or mend the shape where it was made"),
@@ -161,10 +165,7 @@ void make_gmsh_mesh(const GmshSession &gmsh, const std::string &file, const unsi
            {
              for (const auto &[option, value] : options)
                gmsh::option::setNumber(option, value);
-             gmsh::model::mesh::setSizeCallback(
-                 [&size](int /*dimension*/, int /*tag*/, const double x, const double y, const double z) {
-                   return size({x, y, z});
-                 });
+             gmsh::model::mesh::setSizeCallback(size_at);
              // An exception could not leave the parallel regions of the mesher: it must go on to their end.
              gmsh::option::setNumber("General.AbortOnError", 0.);
              gmsh::model::mesh::generate(static_cast<int>(dimension));

@@ -81,7 +81,9 @@ def environment(n_ranks):
     variables = dict(os.environ)
     if os.geteuid() == 0:
         variables.update(OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1")
+        # Single-copy messages need rights that containers withhold; first their name of Open MPI 4, then that of 5.
         variables.setdefault("OMPI_MCA_btl_vader_single_copy_mechanism", "none")
+        variables.setdefault("OMPI_MCA_smsc", "^cma")
     if n_ranks > 1:
         variables.update(DEAL_II_NUM_THREADS="1", OMP_NUM_THREADS="1", OPENBLAS_NUM_THREADS="1")
     return variables

@@ -54,14 +54,15 @@ Corners<dim> project_on_corners(const FacetType type, const Corners<dim> &moment
   return mass.llt().solve(moments) * measure / area;
 }
 
-/// The middle nodes of the sides of quadratic triangles, with the ends of the sides.
+/// The middle nodes of the sides of quadratic triangles, with the ends of the sides; none in two dimensions.
 template <int dim>
 std::map<unsigned int, std::array<unsigned int, 2>> find_triangle_middles(const ContactSurface<dim> &surface)
 {
   std::map<unsigned int, std::array<unsigned int, 2>> middles;
-  for (const Facet<dim> &facet : surface.facets)
-    for (unsigned int side = 0; side < 3 && facet.type == FacetType::triangle && facet.degree == 2; ++side)
-      middles[facet.nodes[3 + side]] = {facet.nodes[side], facet.nodes[(side + 1) % 3]};
+  if constexpr (dim == 3)
+    for (const Facet<dim> &facet : surface.facets)
+      for (unsigned int side = 0; side < 3 && facet.type == FacetType::triangle && facet.degree == 2; ++side)
+        middles[facet.nodes[3 + side]] = {facet.nodes[side], facet.nodes[(side + 1) % 3]};
   return middles;
 }
 } // namespace

@@ -42,7 +42,7 @@ std::vector<StudyRun> plan(const std::string &rest)
   return plan_study(text, read_parameters(text), 1);
 }
 
-const StudyRun &named(const std::vector<StudyRun> &runs, const std::string &name)
+const StudyRun &named(const std::vector<StudyRun> &runs, const char *name)
 {
   for (const StudyRun &run : runs)
     if (run.name() == name)
