@@ -38,22 +38,21 @@ SpatialVector<3> linear_normal(const Facet<3> &facet, const LocalPoint<3> &xi,
   return first.cross(second);
 }
 
-/// Whether a plane parts the facet from all points within a distance of `x`: the one across the way to the
-/// middle of its corners. A box with sides askew to the facets leaves no such room.
+/// How far a facet is from a point, at least: seen along the way to the middle of its corners. Tells more
+/// than a box whose sides are askew to the facet, or less. Zero or less where it tells nothing.
 template <int dim>
-bool is_beyond(const Facet<dim> &facet, const SpatialVector<dim> &x, double distance,
-               const std::vector<SpatialVector<dim>> &positions)
+double bound_distance_along_way(const Facet<dim> &facet, const SpatialVector<dim> &x,
+                                const std::vector<SpatialVector<dim>> &positions)
 {
   if (facet.degree > 1)
-    return false;
+    return 0.;
   SpatialVector<dim> direction = -double(facet.n_nodes()) * x;
   for (unsigned int a = 0; a < facet.n_nodes(); ++a)
     direction += positions[facet.nodes[a]];
-  const double least = distance * direction.norm();
+  double least = infinity;
   for (unsigned int a = 0; a < facet.n_nodes(); ++a)
-    if (!((positions[facet.nodes[a]] - x).dot(direction) > least))
-      return false;
-  return true;
+    least = std::min(least, (positions[facet.nodes[a]] - x).dot(direction));
+  return least / direction.norm();
 }
 } // namespace
 
@@ -62,7 +61,22 @@ void BodyFeet<dim>::forget(const PairList<dim> &pair_list)
 {
   feet.resize(pair_list.body_pairs().size());
   sleeps_until.assign(feet.size(), -infinity);
+  alone_until.assign(feet.size(), -infinity);
   found_within = -1.;
+}
+
+template <int dim>
+void BodyFeet<dim>::restart(const PairList<dim> &pair_list, const std::vector<SurfaceFoot<dim>> &found)
+{
+  forget(pair_list);
+  pairs = &pair_list;
+  for (unsigned int i = 0; i < feet.size(); ++i)
+  {
+    feet[i].facet = found[i].facet;
+    feet[i].xi = found[i].closest.xi;
+    feet[i].depth = found[i].depth;
+    note_found(i);
+  }
 }
 
 template <int dim>
@@ -256,20 +270,31 @@ auto BodyFeet<dim>::box_of(unsigned int facet, const Positions &positions) -> co
 }
 
 template <int dim>
+double BodyFeet<dim>::bound_distance(unsigned int facet, const SpatialVector<dim> &x,
+                                     const Positions &positions)
+{
+  const DatedBox &box = box_of(facet, positions);
+  return std::max((box.low - x).cwiseMax(x - box.high).cwiseMax(0.).norm(),
+                  bound_distance_along_way(surface->facets[facet], x, positions));
+}
+
+template <int dim>
 void BodyFeet<dim>::reject_where_others_are_near(unsigned int begin, unsigned int end,
                                                  const Positions &positions)
 {
-  constexpr double round_off = 1e-9;
-  const double slack = round_off * pairs->skin();
+  constexpr double round_off = 1e-9, share_of_skin = .25;
+  const double slack = round_off * pairs->skin(), most = share_of_skin * pairs->skin();
   SpatialVector<dim> low = SpatialVector<dim>::Constant(infinity), high = -low;
   double farthest = 0.;
+  Selection is_asked{};
   for (unsigned int k = begin; k < end; ++k)
-    if (chunk.is_found[k])
+    if ((is_asked[k] = chunk.is_found[k] && !(alone_until[chunk.pair[k]] > way)))
     {
       const PairFoot<dim> &foot = feet[chunk.pair[k]];
       low = low.cwiseMin(foot.position);
       high = high.cwiseMax(foot.position);
-      farthest = std::max(farthest, std::abs(foot.depth) + slack);
+      farthest = std::max(farthest, std::abs(foot.depth) + slack + most);
+      alone_until[chunk.pair[k]] = way + .5 * most;
     }
   if (low[0] > high[0])
     return;
@@ -282,15 +307,16 @@ void BodyFeet<dim>::reject_where_others_are_near(unsigned int begin, unsigned in
     for (unsigned int k = begin; k < end; ++k)
     {
       const PairFoot<dim> &foot = feet[chunk.pair[k]];
-      if (!chunk.is_found[k] || foot.facet == candidate)
+      if (!is_asked[k] || foot.facet == candidate)
         continue;
       const double distance = std::abs(foot.depth) + slack;
-      chunk.is_found[k] =
-          (box.low - foot.position).cwiseMax(foot.position - box.high).cwiseMax(0.).squaredNorm() >
-              distance * distance ||
-          is_beyond(surface->facets[candidate], foot.position, distance, positions) ||
-          find_closest_point(gather_nodes(surface->facets[candidate], positions), foot.position).distance >
-              distance;
+      double clearance = bound_distance(candidate, foot.position, positions) - distance;
+      if (!(clearance > 0.))
+        clearance =
+            find_closest_point(gather_nodes(surface->facets[candidate], positions), foot.position).distance -
+            distance;
+      is_asked[k] = chunk.is_found[k] = clearance > 0.;
+      alone_until[chunk.pair[k]] = std::min(alone_until[chunk.pair[k]], way + .5 * clearance);
     }
   }
 }
@@ -310,6 +336,7 @@ void BodyFeet<dim>::find_by_search(unsigned int i, const Positions &positions)
              1e-9 * pairs->skin();
   }
   foot = find_pair_foot(*surface, *pairs, pair, positions, cutoff);
+  alone_until[i] = -infinity;
 }
 
 template <int dim>

@@ -71,10 +71,10 @@ double ContactPotential<dim>::search(const Positions &positions,
 template <int dim>
 double ContactPotential<dim>::renew(const Positions &positions, double old_energy)
 {
-  pairs.renew(positions);
-  body_feet.forget(pairs);
-  is_evaluated = false;
-  evaluate(positions);
+  const typename PairList<dim>::Feet found = pairs.renew(positions);
+  move_to(positions);
+  body_feet.restart(pairs, found);
+  find_all();
   return std::exchange(has_pairs, true) ? energy() - old_energy : 0.;
 }
 
@@ -105,6 +105,12 @@ void ContactPotential<dim>::evaluate(const Positions &positions)
   if (is_evaluated && positions == evaluated_positions)
     return;
   move_to(positions);
+  find_all();
+}
+
+template <int dim>
+void ContactPotential<dim>::find_all()
+{
   find_feet(0.);
   evaluate_obstacle_pairs();
   is_evaluated = true;

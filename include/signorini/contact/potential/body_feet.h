@@ -13,17 +13,20 @@ namespace signorini::contact
 ///
 /// A point that was found a distance g outside of its target is not within a distance g' before the nodes
 /// have gone a way of g − g' between them: until then it sleeps. (Surfaces are closed: no point comes inside
-/// but through them.) Where a foot lies inside the facet that it was on, and the boxes of all others are
-/// farther away, it is found on that facet alone, many at a time; everywhere else as find_foot() does. Both
-/// agree to round-off.
+/// but through them.) Where a foot lies inside the facet that it was on, and all others are farther away, it
+/// is found on that facet alone, many at a time; everywhere else as FootSearch does. Both agree to round-off.
+/// If others are farther away by c they need not be looked at before the nodes have gone a way of c/2.
 template <int dim>
 class BodyFeet
 {
 public:
   using Positions = std::vector<SpatialVector<dim>>;
 
-  /// Wakes all points: pairs were made anew, or their feet are not those of the positions.
+  /// Wakes all points: their feet are not those of the positions.
   void forget(const PairList<dim> &pair_list);
+
+  /// Takes pairs that were made anew, with their feet at the positions that there are.
+  void restart(const PairList<dim> &pair_list, const std::vector<SurfaceFoot<dim>> &found);
 
   /// No point of a facet has moved by more than `distance` [m].
   void note_motion(double distance);
@@ -46,7 +49,7 @@ public:
   template <typename Archive>
   void serialize(Archive &archive, unsigned int /*version*/)
   {
-    archive &feet &sleeps_until &way &found_within &touching_;
+    archive &feet &sleeps_until &alone_until &way &found_within &touching_;
   }
 
 private:
@@ -78,6 +81,8 @@ private:
   void put_into_batch(unsigned int pair, unsigned int i, const Positions &positions, InnerFeetBatch &batch);
   void take_from_batch(unsigned int i, const InnerFeetBatch &batch, PairFoot<dim> &foot);
   bool faces_target(unsigned int pair, const Positions &positions) const;
+  /// At least the distance of a point from a facet [m].
+  double bound_distance(unsigned int facet, const SpatialVector<dim> &x, const Positions &positions);
   void reject_where_others_are_near(unsigned int begin, unsigned int end, const Positions &positions);
   void find_by_search(unsigned int pair, const Positions &positions);
   void note_found(unsigned int pair);
@@ -87,6 +92,7 @@ private:
   const PairList<dim> *pairs = nullptr;         ///< of a call
   std::vector<PairFoot<dim>> feet;
   std::vector<double> sleeps_until; ///< way at which the point may be at its target, one a pair [m]
+  std::vector<double> alone_until;  ///< way at which another facet may be as near, one a pair [m]
   double way = 0.; ///< that any point and any facet have gone, together, at most; only ever grows [m]
   double found_within = -1.;           ///< what was asked for at these positions, none if negative [m]
   std::vector<unsigned int> touching_; ///< in rising order

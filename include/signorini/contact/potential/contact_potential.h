@@ -234,6 +234,8 @@ private:
 
   /// Lets the feet on bodies be those of other positions.
   void move_to(const Positions &positions);
+  /// Finds there what forces need.
+  void find_all();
   /// Those less than `gap` outside of their targets.
   void find_feet(double gap) const { body_feet.find_within(gap, evaluated_positions, surface, pairs); }
   double renew(const Positions &positions, double old_energy);
