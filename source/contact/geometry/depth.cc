@@ -141,9 +141,9 @@ auto FootSearch<dim>::make_box(const FacetNodes<dim> &nodes) -> Box
 }
 
 template <int dim>
-double FootSearch<dim>::bound_distance(const SpatialVector<dim> &x, const double cutoff) const
+auto FootSearch<dim>::find_nearest_box(const SpatialVector<dim> &x, const double cutoff) const
+    -> std::optional<Nearest>
 {
-  constexpr double round_off = 1e-9; // much more than what makes facets equally close
   double least = std::numeric_limits<double>::infinity();
   unsigned int nearest = 0;
   for (unsigned int c = 0; c < boxes.size(); ++c)
@@ -152,10 +152,9 @@ double FootSearch<dim>::bound_distance(const SpatialVector<dim> &x, const double
       least = squared_distance;
       nearest = c;
     }
-  if (!(least <= cutoff * cutoff))
-    return cutoff;
-  return std::min(cutoff, (1. + round_off) * find_closest_point(nodes_of(nearest), x).distance +
-                              round_off * boxes[nearest].half_width.norm());
+  if (boxes.empty() || !(least <= cutoff * cutoff))
+    return {};
+  return Nearest{nearest, find_closest_point(nodes_of(nearest), x)};
 }
 
 template <int dim>
@@ -167,7 +166,13 @@ SurfaceFoot<dim> FootSearch<dim>::find_closest_facet(const SpatialVector<dim> &x
   best.closest.position = x;
   best.closest.distance = std::numeric_limits<double>::infinity();
   best.depth = -std::numeric_limits<double>::infinity();
-  const double bound = bound_distance(x, cutoff);
+  const std::optional<Nearest> nearest = find_nearest_box(x, cutoff);
+  if (!nearest)
+    return best;
+  // What is farther does not matter; the round-off is much more than what makes facets equally close.
+  constexpr double round_off = 1e-9;
+  const double bound = std::min(cutoff, (1. + round_off) * nearest->closest.distance +
+                                            round_off * boxes[nearest->candidate].half_width.norm());
   for (unsigned int c = 0; c < candidates.size(); ++c)
   {
     const Box &box = boxes[c];
@@ -176,7 +181,8 @@ SurfaceFoot<dim> FootSearch<dim>::find_closest_facet(const SpatialVector<dim> &x
     if (box.squared_distance(x) > limit * limit)
       continue;
     const FacetNodes<dim> nodes = nodes_of(c);
-    const ClosestPoint<dim> closest = find_closest_point(nodes, x);
+    const ClosestPoint<dim> closest =
+        c == nearest->candidate ? nearest->closest : find_closest_point(nodes, x);
     if (closest.distance > limit)
       continue;
     if (closest.distance < best.closest.distance * (1. - 1e-12) - tie ||

@@ -183,15 +183,6 @@ double PairList<dim>::largest_offset() const
 }
 
 template <int dim>
-SurfaceFoot<dim> PairList<dim>::find_body_foot(const ContactPair<dim> &pair, const Positions &positions,
-                                               const SpatialVector<dim> &x, double cutoff) const
-{
-  const std::vector<unsigned int> &candidates = neighbour_list.neighbours()[pair.neighbours].candidates;
-  const SurfacePlace<dim> contactor{pair.facet, pair.xi};
-  return FootSearch<dim>(surface.facets, positions, candidates).find(x, cutoff, &contactor);
-}
-
-template <int dim>
 void PairList<dim>::add_body_pairs(unsigned int neighbours, const Positions &positions, Feet &feet)
 {
   const FacetNeighbours &found = neighbour_list.neighbours()[neighbours];

@@ -3,6 +3,7 @@
 
 #include "signorini/contact/geometry/closest_point.h"
 
+#include <optional>
 #include <vector>
 
 namespace signorini::contact
@@ -71,6 +72,11 @@ private:
       return ((x - middle).cwiseAbs() - half_width).cwiseMax(0.).squaredNorm();
     }
   };
+  struct Nearest
+  {
+    unsigned int candidate;
+    ClosestPoint<dim> closest;
+  };
 
   static Box make_box(const FacetNodes<dim> &nodes);
   FacetNodes<dim> nodes_of(unsigned int candidate) const
@@ -78,8 +84,9 @@ private:
     return gather_nodes(facets[candidates[candidate]], positions);
   }
 
-  /// Of the facet whose box is nearest, a little rounded up: no facet farther than that matters [m].
-  double bound_distance(const SpatialVector<dim> &x, double cutoff) const;
+  /// The candidate whose box is nearest to `x`, with the closest point on it; none if it is beyond the
+  /// cutoff.
+  std::optional<Nearest> find_nearest_box(const SpatialVector<dim> &x, double cutoff) const;
 
   /// The closest facet, its foot's depth not yet signed.
   SurfaceFoot<dim> find_closest_facet(const SpatialVector<dim> &x, double cutoff, Facing<dim> facing) const;

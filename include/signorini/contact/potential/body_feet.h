@@ -4,6 +4,7 @@
 #include "signorini/contact/geometry/inner_feet.h"
 #include "signorini/contact/potential/pair_list.h"
 
+#include <limits>
 #include <vector>
 
 namespace signorini::contact
@@ -28,7 +29,7 @@ public:
   /// Takes pairs that were made anew, with their feet at the positions that there are.
   void restart(const PairList<dim> &pair_list, const std::vector<SurfaceFoot<dim>> &found);
 
-  /// No point of a facet has moved by more than `distance` [m].
+  /// No point of a facet has moved by more than `distance` [m], as seen by an observer who moves as he likes.
   void note_motion(double distance);
 
   /// Offsets of pairs have changed.
@@ -73,6 +74,13 @@ private:
     unsigned int n = 0;
   };
 
+  /// Candidates of an entry of the neighbour list that may be as near as a distance to points of its facet.
+  struct Near
+  {
+    double covers = -std::numeric_limits<double>::infinity(); ///< way and distance together [m]
+    std::vector<unsigned int> candidates;
+  };
+
   void find_awake(double gap);
   void find_chunk(const Positions &positions);
   /// Of the pairs in the chunk that are asked for, on the facets of their feet so far; returns which have
@@ -87,6 +95,8 @@ private:
   void find_by_search(unsigned int pair, const Positions &positions);
   void note_found(unsigned int pair);
   const DatedBox &box_of(unsigned int facet, const Positions &positions);
+  const std::vector<unsigned int> &find_near(unsigned int neighbours, double distance,
+                                             const Positions &positions);
 
   const ContactSurface<dim> *surface = nullptr; ///< of a call
   const PairList<dim> *pairs = nullptr;         ///< of a call
@@ -100,14 +110,15 @@ private:
   // Reused from call to call.
   std::vector<unsigned int> awake;
   std::vector<DatedBox> boxes; ///< one a facet
+  std::vector<Near> all_near;  ///< one an entry of the neighbour list
   unsigned int date = 0;
   Chunk chunk;
 };
 
-/// The foot of a pair on its target body, no farther than `cutoff` [m], where the nodes are `at` these
-/// positions; depth −∞ if there is none.
+/// The foot of a pair on those `candidates` of its target body, no farther than `cutoff` [m], where the nodes
+/// are `at` these positions; depth −∞ if there is none.
 template <int dim>
-PairFoot<dim> find_pair_foot(const ContactSurface<dim> &surface, const PairList<dim> &pairs,
+PairFoot<dim> find_pair_foot(const ContactSurface<dim> &surface, const std::vector<unsigned int> &candidates,
                              const ContactPair<dim> &pair, const std::vector<SpatialVector<dim>> &at,
                              double cutoff);
 } // namespace signorini::contact

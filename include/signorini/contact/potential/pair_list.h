@@ -78,10 +78,6 @@ public:
   /// pairs still to be made. Empty: none.
   void set_multipliers(NodalPressures<dim> new_multipliers);
 
-  /// The foot of `x`, a point of the pair's contactor, on its target body, no farther than `cutoff`.
-  SurfaceFoot<dim> find_body_foot(const ContactPair<dim> &pair, const Positions &positions,
-                                  const SpatialVector<dim> &x, double cutoff) const;
-
   /// How deep a point of that owned facet sees another body [m].
   double reach(unsigned int facet) const { return reach_[facet]; }
 
