@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "signorini/solvers/bulk_bound.h"
 
+#include "signorini/solvers/largest_eigenvalue.h"
+
 #include <deal.II/base/mpi.h>
 
-#include <Eigen/Eigenvalues>
+#include <Eigen/Core>
 
 #include <algorithm>
 #include <cmath>
@@ -46,8 +48,7 @@ double BulkBound<dim>::largest_eigenvalue(unsigned int cell, const std::vector<d
         std::sqrt((*materials)[cells.bodies[cell]].density * cells.cell_nodal_measures(cell)[i / dim]);
   Eigen::MatrixXd scaled = Eigen::Map<const Eigen::MatrixXd>(matrix.data(), n, n);
   scaled = root_mass.cwiseInverse().asDiagonal() * scaled * root_mass.cwiseInverse().asDiagonal();
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(scaled, Eigen::EigenvaluesOnly);
-  return eigen.eigenvalues()[n - 1];
+  return find_largest_eigenvalue(scaled);
 }
 
 template <int dim>

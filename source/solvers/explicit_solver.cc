@@ -21,9 +21,8 @@ ExplicitSolver<dim>::ExplicitSolver(const Discretization<dim> &the_discretizatio
 {
   for (unsigned int i = 0; i < mass.locally_owned_size(); ++i)
     inverse_mass.local_element(i) = mass.local_element(i) > 0. ? 1. / mass.local_element(i) : 0.;
-  for (Vector *vector :
-       {&force, &load_force, &damping_force, &one_damping_force, &viscous_force, &external_force, &old_force,
-        &old_load_force, &old_damping_force, &old_viscous_force})
+  for (Vector *vector : {&force, &load_force, &damping_force, &viscous_force, &external_force, &old_force,
+                         &old_load_force, &old_damping_force, &old_viscous_force})
     *vector = discretization->make_vector();
   std::vector<bool> is_supported(mass.locally_owned_size(), false);
   for (const unsigned int dof : supports->owned_dofs())

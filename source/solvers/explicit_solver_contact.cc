@@ -11,20 +11,21 @@ void ExplicitSolver<dim>::compute_contact_forces(const State &state, const Vecto
     return;
   const auto section = run_time->enter("contact");
   for (const auto &contact : forces->contacts)
-  {
     contact->update(state);
-    contact->add_force(contact->is_external ? external_force : force);
-  }
-  damping_force = 0.;
-  for (const auto &contact : forces->damped_contacts)
+  const auto force_on_bodies = [this](const ContactTerm<dim> &contact) -> Vector &
+  { return contact.is_external ? external_force : force; };
+  if (forces->damped_contacts.empty())
+    for (const auto &contact : forces->contacts)
+      contact->add_force(force_on_bodies(*contact));
+  else
   {
-    one_damping_force = 0.;
-    contact->add_damping_force(velocity, one_damping_force);
-    damping_force += one_damping_force;
-    (contact->is_external ? external_force : force) += one_damping_force;
-  }
-  if (!forces->damped_contacts.empty())
+    damping_force = 0.;
+    for (const auto &contact : forces->volume_contacts)
+      contact->add_force(force_on_bodies(*contact));
+    for (const auto &contact : forces->damped_contacts)
+      contact->add_all_forces(velocity, force_on_bodies(*contact), damping_force);
     discretization->collect(damping_force);
+  }
   for (const auto &friction : forces->frictions)
   {
     friction->update(velocity);

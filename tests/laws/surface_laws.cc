@@ -77,6 +77,33 @@ TEST_P(SurfaceLaws, DampingOnlyDissipates)
       });
 }
 
+TEST_P(SurfaceLaws, AllForcesAndMeasuresComeInOnePass)
+{
+  on_scene(
+      [](const auto &scene, auto dimension)
+      {
+        constexpr int dim = decltype(dimension)::value;
+        auto potential = scene.make_potential();
+        potential.update(scene.positions);
+        potential.evaluate(scene.positions);
+        const auto measures = potential.measure();
+        const auto velocities = RandomVectors<dim>(6).field(scene.positions.size(), 1.);
+        auto forces = scene.zeros(), damping_forces = scene.zeros();
+        potential.add_all_forces(velocities, forces, damping_forces);
+        EXPECT_EQ(potential.measure().n_active, measures.n_active);
+        EXPECT_EQ(potential.measure().max_pressure, measures.max_pressure);
+        EXPECT_GT(norm<dim>(damping_forces), 0.);
+        auto one_by_one = scene.zeros(), damping_alone = scene.zeros();
+        potential.add_forces(one_by_one);
+        potential.add_damping_forces(velocities, damping_alone);
+        EXPECT_EQ(forces, one_by_one);
+        EXPECT_EQ(damping_forces, damping_alone);
+
+        potential.set_penalty_factor(2. * scene.settings.penalty_factor);
+        EXPECT_GT(potential.measure().max_pressure, measures.max_pressure); // those of the forces are old
+      });
+}
+
 /// Towards contact nothing is clipped, and the damping force is linear in the velocities.
 TEST_P(SurfaceLaws, RowSumsBoundDamping)
 {

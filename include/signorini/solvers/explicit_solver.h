@@ -92,7 +92,7 @@ private:
   RunTime *run_time;
 
   Vector mass, inverse_mass; ///< the latter is zero where there is none
-  Vector force, load_force, damping_force, one_damping_force, viscous_force, external_force;
+  Vector force, load_force, damping_force, viscous_force, external_force;
   Vector old_force, old_load_force, old_damping_force, old_viscous_force;
   Vector old_displacement, old_velocity, increment;
   std::unique_ptr<ImplicitContact<dim>> implicit_contact; ///< null where contact is explicit or there is none

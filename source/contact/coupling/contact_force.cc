@@ -137,6 +137,17 @@ double ContactForce<dim>::add_damping_force(const Vector &velocity, Vector &forc
 }
 
 template <int dim>
+void ContactForce<dim>::add_all_forces(const Vector &velocity, Vector &force, Vector &damping_force) const
+{
+  std::vector<SpatialVector<dim>> nodal(map.surface().n_nodes(), SpatialVector<dim>::Zero()), damping = nodal;
+  potential.add_all_forces(map.gather(velocity), nodal, damping);
+  map.add_to_owners(damping, damping_force);
+  for (std::size_t node = 0; node < nodal.size(); ++node)
+    nodal[node] += damping[node];
+  map.add_to_owners(nodal, force);
+}
+
+template <int dim>
 void ContactForce<dim>::freeze(const Vector &start)
 {
   linearize(start);

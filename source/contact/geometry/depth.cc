@@ -18,37 +18,13 @@ constexpr double distance_tolerance = 1e-12; ///< of distances, likewise
 constexpr double flank_tolerance = 1e-4;     ///< of the distances from the two flanks of a spike, likewise
 
 template <int dim>
-struct Box
-{
-  SpatialVector<dim> middle, half_width;
-
-  double squared_distance(const SpatialVector<dim> &x) const
-  {
-    return ((x - middle).cwiseAbs() - half_width).cwiseMax(0.).squaredNorm();
-  }
-};
-
-/// A box that surely holds the facet. A facet of degree 2 may bulge out of the box of its nodes, by no more
-/// than the Lebesgue constant allows.
-template <int dim>
-Box<dim> make_box(const FacetNodes<dim> &nodes)
-{
-  SpatialVector<dim> lower = nodes.position[0], upper = nodes.position[0];
-  const unsigned int n_nodes = nodes.n_nodes();
-  for (unsigned int i = 1; i < n_nodes; ++i)
-  {
-    lower = lower.cwiseMin(nodes.position[i]);
-    upper = upper.cwiseMax(nodes.position[i]);
-  }
-  return {0.5 * (lower + upper), 0.5 * lebesgue_constant(nodes) * (upper - lower)};
-}
-
-template <int dim>
 SpatialVector<dim> make_unit(const SpatialVector<dim> &v)
 {
   const double norm = v.norm();
   return norm > 0. ? SpatialVector<dim>(v / norm) : SpatialVector<dim>(SpatialVector<dim>::Zero());
 }
+
+} // namespace
 
 /// The sectors of all facets that meet at a foot.
 template <int dim>
@@ -138,27 +114,75 @@ private:
   SpatialVector<dim> normal = SpatialVector<dim>::Zero();
 };
 
-/// The closest facet, its foot's depth not yet signed.
 template <int dim>
-SurfaceFoot<dim> find_closest_facet(const std::vector<Facet<dim>> &facets,
-                                    const std::vector<SpatialVector<dim>> &positions,
-                                    const unsigned int *candidates, const unsigned int n_candidates,
-                                    const SpatialVector<dim> &x, const double cutoff, Facing<dim> facing)
+FootSearch<dim>::FootSearch(const std::vector<Facet<dim>> &all_facets,
+                            const std::vector<SpatialVector<dim>> &all_positions,
+                            const std::vector<unsigned int> &all_candidates)
+    : facets(all_facets), positions(all_positions), candidates(all_candidates)
+{
+  boxes.reserve(candidates.size());
+  for (unsigned int c = 0; c < candidates.size(); ++c)
+    boxes.push_back(make_box(nodes_of(c)));
+}
+
+/// A box that surely holds the facet. A facet of degree 2 may bulge out of the box of its nodes, by no more
+/// than the Lebesgue constant allows.
+template <int dim>
+auto FootSearch<dim>::make_box(const FacetNodes<dim> &nodes) -> Box
+{
+  SpatialVector<dim> lower = nodes.position[0], upper = nodes.position[0];
+  const unsigned int n_nodes = nodes.n_nodes();
+  for (unsigned int i = 1; i < n_nodes; ++i)
+  {
+    lower = lower.cwiseMin(nodes.position[i]);
+    upper = upper.cwiseMax(nodes.position[i]);
+  }
+  return {0.5 * (lower + upper), 0.5 * lebesgue_constant(nodes) * (upper - lower)};
+}
+
+template <int dim>
+auto FootSearch<dim>::find_nearest_box(const SpatialVector<dim> &x, const double cutoff) const
+    -> std::optional<Nearest>
+{
+  double least = std::numeric_limits<double>::infinity();
+  unsigned int nearest = 0;
+  for (unsigned int c = 0; c < boxes.size(); ++c)
+    if (const double squared_distance = boxes[c].squared_distance(x); squared_distance < least)
+    {
+      least = squared_distance;
+      nearest = c;
+    }
+  if (boxes.empty() || !(least <= cutoff * cutoff))
+    return {};
+  return Nearest{nearest, find_closest_point(nodes_of(nearest), x)};
+}
+
+template <int dim>
+SurfaceFoot<dim> FootSearch<dim>::find_closest_facet(const SpatialVector<dim> &x, const double cutoff,
+                                                     Facing<dim> facing) const
 {
   SurfaceFoot<dim> best;
   best.closest.xi.setZero();
   best.closest.position = x;
   best.closest.distance = std::numeric_limits<double>::infinity();
   best.depth = -std::numeric_limits<double>::infinity();
-  for (unsigned int c = 0; c < n_candidates; ++c)
+  const std::optional<Nearest> nearest = find_nearest_box(x, cutoff);
+  if (!nearest)
+    return best;
+  // What is farther does not matter; the round-off is much more than what makes facets equally close.
+  constexpr double round_off = 1e-9;
+  const double bound = std::min(cutoff, (1. + round_off) * nearest->closest.distance +
+                                            round_off * boxes[nearest->candidate].half_width.norm());
+  for (unsigned int c = 0; c < candidates.size(); ++c)
   {
-    const FacetNodes<dim> nodes = gather_nodes(facets[candidates[c]], positions);
-    const Box<dim> box = make_box(nodes);
+    const Box &box = boxes[c];
     const double tie = facing.is_asked() ? distance_tolerance * box.half_width.norm() : 0.,
-                 limit = std::min(cutoff, best.closest.distance + tie);
+                 limit = std::min(bound, best.closest.distance + tie);
     if (box.squared_distance(x) > limit * limit)
       continue;
-    const ClosestPoint<dim> closest = find_closest_point(nodes, x);
+    const FacetNodes<dim> nodes = nodes_of(c);
+    const ClosestPoint<dim> closest =
+        c == nearest->candidate ? nearest->closest : find_closest_point(nodes, x);
     if (closest.distance > limit)
       continue;
     if (closest.distance < best.closest.distance * (1. - 1e-12) - tie ||
@@ -172,26 +196,21 @@ SurfaceFoot<dim> find_closest_facet(const std::vector<Facet<dim>> &facets,
   return best;
 }
 
-/// For a point below the surface whose foot lies on the back of a spike, on the flank that looks the way the
-/// point's own surface does: its foot on the other flank, if that is hardly farther.
 template <int dim>
-SurfaceFoot<dim> turn_to_front(const SurfaceFoot<dim> &foot, const std::vector<Facet<dim>> &facets,
-                               const std::vector<SpatialVector<dim>> &positions,
-                               const unsigned int *candidates, const unsigned int n_candidates,
-                               const SpatialVector<dim> &x, Facing<dim> facing)
+SurfaceFoot<dim> FootSearch<dim>::turn_to_front(const SurfaceFoot<dim> &foot, const SpatialVector<dim> &x,
+                                                Facing<dim> facing) const
 {
   constexpr double half = .5; // flanks are at most 60 degrees off
   if (facing.cosine_to(foot) < half)
     return foot;
   SurfaceFoot<dim> front = foot;
   front.closest.distance = std::numeric_limits<double>::infinity();
-  for (unsigned int c = 0; c < n_candidates; ++c)
+  for (unsigned int c = 0; c < candidates.size(); ++c)
   {
-    const FacetNodes<dim> nodes = gather_nodes(facets[candidates[c]], positions);
-    const Box<dim> box = make_box(nodes);
-    const double limit = foot.closest.distance + flank_tolerance * box.half_width.norm();
-    if (box.squared_distance(x) > limit * limit)
+    const double limit = foot.closest.distance + flank_tolerance * boxes[c].half_width.norm();
+    if (boxes[c].squared_distance(x) > limit * limit)
       continue;
+    const FacetNodes<dim> nodes = nodes_of(c);
     const ClosestPoint<dim> closest = find_closest_point(nodes, x);
     if (closest.distance <= std::min(limit, front.closest.distance) &&
         facing.cosine_to(nodes, closest.xi) < -half)
@@ -200,37 +219,30 @@ SurfaceFoot<dim> turn_to_front(const SurfaceFoot<dim> &foot, const std::vector<F
   return std::isinf(front.closest.distance) ? foot : front;
 }
 
-/// All candidates that hold the place `foot`, together.
 template <int dim>
-Fan<dim> gather_fan(const std::vector<Facet<dim>> &facets, const std::vector<SpatialVector<dim>> &positions,
-                    const unsigned int *candidates, const unsigned int n_candidates,
-                    const SpatialVector<dim> &foot)
+Fan<dim> FootSearch<dim>::gather_fan(const SpatialVector<dim> &foot) const
 {
   Fan<dim> fan;
-  for (unsigned int c = 0; c < n_candidates; ++c)
+  for (unsigned int c = 0; c < candidates.size(); ++c)
   {
-    const FacetNodes<dim> nodes = gather_nodes(facets[candidates[c]], positions);
-    const Box<dim> box = make_box(nodes);
-    const double tolerance = 2. * tie_tolerance * box.half_width.norm();
-    if (box.squared_distance(foot) > tolerance * tolerance)
+    const double tolerance = 2. * tie_tolerance * boxes[c].half_width.norm();
+    if (boxes[c].squared_distance(foot) > tolerance * tolerance)
       continue;
     // Asked from the foot, not from x: a facet that holds the foot may be as close to x at another place too.
+    const FacetNodes<dim> nodes = nodes_of(c);
     const ClosestPoint<dim> closest = find_closest_point(nodes, foot);
     if (closest.distance <= tolerance)
       fan.add_sector(nodes, closest.xi);
   }
   return fan;
 }
-} // namespace
 
 template <int dim>
-SurfaceFoot<dim> find_foot(const std::vector<Facet<dim>> &facets,
-                           const std::vector<SpatialVector<dim>> &positions, const unsigned int *candidates,
-                           const unsigned int n_candidates, const SpatialVector<dim> &x, const double cutoff,
-                           const SurfacePlace<dim> *contactor)
+SurfaceFoot<dim> FootSearch<dim>::find(const SpatialVector<dim> &x, const double cutoff,
+                                       const SurfacePlace<dim> *contactor) const
 {
   const Facing<dim> facing(facets, positions, contactor);
-  SurfaceFoot<dim> foot = find_closest_facet(facets, positions, candidates, n_candidates, x, cutoff, facing);
+  SurfaceFoot<dim> foot = find_closest_facet(x, cutoff, facing);
   if (std::isinf(foot.closest.distance))
     return foot;
 
@@ -240,21 +252,15 @@ SurfaceFoot<dim> find_foot(const std::vector<Facet<dim>> &facets,
   if (find_local_place(facet, foot.closest.xi, tie_tolerance).n_free == dim - 1)
     fan.normal = evaluate_facet_frame(gather_nodes(facet, positions), foot.closest.xi).area_normal;
   else
-    fan = gather_fan(facets, positions, candidates, n_candidates, foot.closest.position);
+    fan = gather_fan(foot.closest.position);
 
   // Beside the rim of an open surface there is no inside; below it there is.
   const double least = fan.is_closed() ? 0. : std::sqrt(0.5) * foot.closest.distance * fan.normal.norm();
   const bool is_inside = outwards.dot(fan.normal) > least;
   foot.depth = is_inside ? foot.closest.distance : -foot.closest.distance;
-  return is_inside && facing.is_asked()
-             ? turn_to_front(foot, facets, positions, candidates, n_candidates, x, facing)
-             : foot;
+  return is_inside && facing.is_asked() ? turn_to_front(foot, x, facing) : foot;
 }
 
-template SurfaceFoot<2> find_foot(const std::vector<Facet<2>> &, const std::vector<SpatialVector<2>> &,
-                                  const unsigned int *, unsigned int, const SpatialVector<2> &, double,
-                                  const SurfacePlace<2> *);
-template SurfaceFoot<3> find_foot(const std::vector<Facet<3>> &, const std::vector<SpatialVector<3>> &,
-                                  const unsigned int *, unsigned int, const SpatialVector<3> &, double,
-                                  const SurfacePlace<3> *);
+template class FootSearch<2>;
+template class FootSearch<3>;
 } // namespace signorini::contact

@@ -88,7 +88,7 @@ SIGNORINI_INLINE void minimise(const Polynomials &q, InnerFeetBatch &batch, Numb
     batch.s[0][i] = batch.s[1][i] = 0.;
   for (int step = 0; step < max_n_steps; ++step)
   {
-    double largest_error = 0.;
+    Numbers errors;
     for (int i = 0; i < size; ++i)
     {
       const double s0 = batch.s[0][i], s1 = batch.s[1][i];
@@ -106,10 +106,9 @@ SIGNORINI_INLINE void minimise(const Polynomials &q, InnerFeetBatch &batch, Numb
       batch.s[0][i] = is_there ? s0 : s0 + p0;
       batch.s[1][i] = is_there ? s1 : s1 + p1;
       last_step[i] = is_there ? last_step[i] : p0 * p0 + p1 * p1;
-      const double error = q.contraction[i] < never ? q.contraction[i] * last_step[i] : 0.;
-      largest_error = error > largest_error ? error : largest_error;
+      errors[i] = q.contraction[i] < never ? q.contraction[i] * last_step[i] : 0.;
     }
-    if (!(largest_error >= 1e-18))
+    if (!std::any_of(errors, errors + size, [](double error) { return error >= 1e-18; }))
       break;
   }
 }

@@ -12,6 +12,7 @@ namespace signorini::contact
 namespace
 {
 constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double round_off = 1e-9, share_of_skin = .125; ///< over the skin: of distances; looked ahead
 
 /// The shape functions of a facet of degree 1 in 3-D.
 std::array<double, 9> evaluate_linear_shape(const FacetType type, const LocalPoint<3> &xi)
@@ -38,22 +39,21 @@ SpatialVector<3> linear_normal(const Facet<3> &facet, const LocalPoint<3> &xi,
   return first.cross(second);
 }
 
-/// Whether a plane parts the facet from all points within a distance of `x`: the one across the way to the
-/// middle of its corners. A box with sides askew to the facets leaves no such room.
+/// How far a facet is from a point, at least: seen along the way to the middle of its corners. Tells more
+/// than a box whose sides are askew to the facet, or less. Zero or less where it tells nothing.
 template <int dim>
-bool is_beyond(const Facet<dim> &facet, const SpatialVector<dim> &x, double distance,
-               const std::vector<SpatialVector<dim>> &positions)
+double bound_distance_along_way(const Facet<dim> &facet, const SpatialVector<dim> &x,
+                                const std::vector<SpatialVector<dim>> &positions)
 {
   if (facet.degree > 1)
-    return false;
+    return 0.;
   SpatialVector<dim> direction = -double(facet.n_nodes()) * x;
   for (unsigned int a = 0; a < facet.n_nodes(); ++a)
     direction += positions[facet.nodes[a]];
-  const double least = distance * direction.norm();
+  double least = infinity;
   for (unsigned int a = 0; a < facet.n_nodes(); ++a)
-    if (!((positions[facet.nodes[a]] - x).dot(direction) > least))
-      return false;
-  return true;
+    least = std::min(least, (positions[facet.nodes[a]] - x).dot(direction));
+  return least / direction.norm();
 }
 } // namespace
 
@@ -62,14 +62,31 @@ void BodyFeet<dim>::forget(const PairList<dim> &pair_list)
 {
   feet.resize(pair_list.body_pairs().size());
   sleeps_until.assign(feet.size(), -infinity);
+  alone_until.assign(feet.size(), -infinity);
+  all_near.resize(pair_list.neighbours().size());
+  for (Near &near : all_near)
+    near.covers = -infinity;
   found_within = -1.;
+}
+
+template <int dim>
+void BodyFeet<dim>::restart(const PairList<dim> &pair_list, const std::vector<SurfaceFoot<dim>> &found)
+{
+  forget(pair_list);
+  pairs = &pair_list;
+  for (unsigned int i = 0; i < feet.size(); ++i)
+  {
+    feet[i].facet = found[i].facet;
+    feet[i].xi = found[i].closest.xi;
+    feet[i].depth = found[i].depth;
+    note_found(i);
+  }
 }
 
 template <int dim>
 void BodyFeet<dim>::note_motion(double distance)
 {
-  constexpr double round_off = 1e-12;
-  way += 2. * (1. + round_off) * distance;
+  way += 2. * (1. + 1e-12) * distance;
   found_within = -1.;
 }
 
@@ -87,7 +104,7 @@ void BodyFeet<dim>::note_found(unsigned int pair)
 template <int dim>
 void BodyFeet<dim>::find_awake(double gap)
 {
-  const double slack = gap + pairs->largest_offset() + 1e-9 * pairs->skin();
+  const double slack = gap + pairs->largest_offset() + round_off * pairs->skin();
   awake.clear();
   for (unsigned int i = 0; i < sleeps_until.size(); ++i)
     if (!(sleeps_until[i] - way > slack))
@@ -106,16 +123,13 @@ void BodyFeet<dim>::find_within(double gap, const Positions &positions,
   ++date;
   boxes.resize(surface->facets.size());
   find_awake(gap);
+  touching_.clear();
   for (std::size_t begin = 0; begin < awake.size(); begin += chunk.n)
   {
     chunk.n = static_cast<unsigned int>(std::min<std::size_t>(chunk_size, awake.size() - begin));
     std::copy_n(awake.begin() + static_cast<std::ptrdiff_t>(begin), chunk.n, chunk.pair.begin());
     find_chunk(positions);
   }
-  touching_.clear();
-  for (const unsigned int i : awake)
-    if (feet[i].depth + pairs->body_pairs()[i].offset > 0.)
-      touching_.push_back(i);
 }
 
 template <int dim>
@@ -145,7 +159,12 @@ void BodyFeet<dim>::find_chunk(const Positions &positions)
   // By the same arithmetic as all others, so that no digit depends on what was known before.
   find_inner_feet_of_chunk(is_searched, positions);
   for (unsigned int k = 0; k < chunk.n; ++k)
-    note_found(chunk.pair[k]);
+  {
+    const unsigned int pair = chunk.pair[k];
+    note_found(pair);
+    if (feet[pair].depth + list[pair].offset > 0.)
+      touching_.push_back(pair);
+  }
 }
 
 template <int dim>
@@ -256,43 +275,71 @@ auto BodyFeet<dim>::box_of(unsigned int facet, const Positions &positions) -> co
 }
 
 template <int dim>
-void BodyFeet<dim>::reject_where_others_are_near(unsigned int begin, unsigned int end,
-                                                 const Positions &positions)
+const std::vector<unsigned int> &BodyFeet<dim>::find_near(unsigned int neighbours, double distance,
+                                                          const Positions &positions)
 {
-  constexpr double round_off = 1e-9;
-  const double slack = round_off * pairs->skin();
-  SpatialVector<dim> low = SpatialVector<dim>::Constant(infinity), high = -low;
-  double farthest = 0.;
-  for (unsigned int k = begin; k < end; ++k)
-    if (chunk.is_found[k])
-    {
-      const PairFoot<dim> &foot = feet[chunk.pair[k]];
-      low = low.cwiseMin(foot.position);
-      high = high.cwiseMax(foot.position);
-      farthest = std::max(farthest, std::abs(foot.depth) + slack);
-    }
-  if (low[0] > high[0])
-    return;
-  const FacetNeighbours &found = pairs->neighbours()[pairs->body_pairs()[chunk.pair[begin]].neighbours];
+  // FootSearch looks a little farther for the other flank of a spike, by a part of the facet's size.
+  constexpr double share_of_size = 1e-3;
+  const FacetNeighbours &found = pairs->neighbours()[neighbours];
+  if (!(distance < pairs->skin()))
+    return found.candidates;
+  Near &near = all_near[neighbours];
+  if (way + distance <= near.covers)
+    return near.candidates;
+  const double radius = distance + share_of_skin * pairs->skin();
+  const DatedBox of_facet = box_of(found.facet, positions);
+  near.candidates.clear();
   for (const unsigned int candidate : found.candidates)
   {
     const DatedBox &box = box_of(candidate, positions);
-    if ((box.low - high).cwiseMax(low - box.high).cwiseMax(0.).squaredNorm() > farthest * farthest)
-      continue;
+    if ((box.low - of_facet.high).cwiseMax(of_facet.low - box.high).cwiseMax(0.).norm() <=
+        radius + share_of_size * (box.high - box.low).norm())
+      near.candidates.push_back(candidate);
+  }
+  near.covers = way + radius;
+  return near.candidates;
+}
+
+template <int dim>
+double BodyFeet<dim>::bound_distance(unsigned int facet, const SpatialVector<dim> &x,
+                                     const Positions &positions)
+{
+  const DatedBox &box = box_of(facet, positions);
+  return std::max((box.low - x).cwiseMax(x - box.high).cwiseMax(0.).norm(),
+                  bound_distance_along_way(surface->facets[facet], x, positions));
+}
+
+template <int dim>
+void BodyFeet<dim>::reject_where_others_are_near(unsigned int begin, unsigned int end,
+                                                 const Positions &positions)
+{
+  const double slack = round_off * pairs->skin(), most = share_of_skin * pairs->skin();
+  double farthest = -1.;
+  Selection is_asked{};
+  for (unsigned int k = begin; k < end; ++k)
+    if ((is_asked[k] = chunk.is_found[k] && !(alone_until[chunk.pair[k]] > way)))
+    {
+      farthest = std::max(farthest, std::abs(feet[chunk.pair[k]].depth) + slack + most);
+      alone_until[chunk.pair[k]] = way + .5 * most;
+    }
+  if (farthest < 0.)
+    return;
+  const unsigned int neighbours = pairs->body_pairs()[chunk.pair[begin]].neighbours;
+  for (const unsigned int candidate : find_near(neighbours, farthest, positions))
     for (unsigned int k = begin; k < end; ++k)
     {
       const PairFoot<dim> &foot = feet[chunk.pair[k]];
-      if (!chunk.is_found[k] || foot.facet == candidate)
+      if (!is_asked[k] || foot.facet == candidate)
         continue;
       const double distance = std::abs(foot.depth) + slack;
-      chunk.is_found[k] =
-          (box.low - foot.position).cwiseMax(foot.position - box.high).cwiseMax(0.).squaredNorm() >
-              distance * distance ||
-          is_beyond(surface->facets[candidate], foot.position, distance, positions) ||
-          find_closest_point(gather_nodes(surface->facets[candidate], positions), foot.position).distance >
-              distance;
+      double clearance = bound_distance(candidate, foot.position, positions) - distance;
+      if (!(clearance > 0.))
+        clearance =
+            find_closest_point(gather_nodes(surface->facets[candidate], positions), foot.position).distance -
+            distance;
+      is_asked[k] = chunk.is_found[k] = clearance > 0.;
+      alone_until[chunk.pair[k]] = std::min(alone_until[chunk.pair[k]], way + .5 * clearance);
     }
-  }
 }
 
 template <int dim>
@@ -300,6 +347,7 @@ void BodyFeet<dim>::find_by_search(unsigned int i, const Positions &positions)
 {
   const ContactPair<dim> &pair = pairs->body_pairs()[i];
   PairFoot<dim> &foot = feet[i];
+  alone_until[i] = -infinity;
   double cutoff = infinity;
   if (sleeps_until[i] > -infinity)
   {
@@ -307,19 +355,21 @@ void BodyFeet<dim>::find_by_search(unsigned int i, const Positions &positions)
     const SpatialVector<dim> x = interpolate(surface->facets[pair.facet], pair.shape, positions);
     const FacetShape<dim> shape = evaluate_facet_shape(surface->facets[foot.facet], foot.xi);
     cutoff = (1. + 1e-6) * (x - interpolate(surface->facets[foot.facet], shape.value, positions)).norm() +
-             1e-9 * pairs->skin();
+             round_off * pairs->skin();
   }
-  foot = find_pair_foot(*surface, *pairs, pair, positions, cutoff);
+  foot = find_pair_foot(*surface, find_near(pair.neighbours, cutoff, positions), pair, positions, cutoff);
 }
 
 template <int dim>
-PairFoot<dim> find_pair_foot(const ContactSurface<dim> &surface, const PairList<dim> &pairs,
+PairFoot<dim> find_pair_foot(const ContactSurface<dim> &surface, const std::vector<unsigned int> &candidates,
                              const ContactPair<dim> &pair, const std::vector<SpatialVector<dim>> &at,
                              double cutoff)
 {
   PairFoot<dim> result;
   result.position = interpolate(surface.facets[pair.facet], pair.shape, at);
-  const SurfaceFoot<dim> foot = pairs.find_body_foot(pair, at, result.position, cutoff);
+  const SurfacePlace<dim> contactor{pair.facet, pair.xi};
+  const SurfaceFoot<dim> foot =
+      FootSearch<dim>(surface.facets, at, candidates).find(result.position, cutoff, &contactor);
   if (!std::isfinite(foot.depth))
     return result;
   result.depth = foot.depth;
@@ -343,8 +393,8 @@ PairFoot<dim> find_pair_foot(const ContactSurface<dim> &surface, const PairList<
 
 template class BodyFeet<2>;
 template class BodyFeet<3>;
-template PairFoot<2> find_pair_foot(const ContactSurface<2> &, const PairList<2> &, const ContactPair<2> &,
-                                    const std::vector<SpatialVector<2>> &, double);
-template PairFoot<3> find_pair_foot(const ContactSurface<3> &, const PairList<3> &, const ContactPair<3> &,
-                                    const std::vector<SpatialVector<3>> &, double);
+template PairFoot<2> find_pair_foot(const ContactSurface<2> &, const std::vector<unsigned int> &,
+                                    const ContactPair<2> &, const std::vector<SpatialVector<2>> &, double);
+template PairFoot<3> find_pair_foot(const ContactSurface<3> &, const std::vector<unsigned int> &,
+                                    const ContactPair<3> &, const std::vector<SpatialVector<3>> &, double);
 } // namespace signorini::contact

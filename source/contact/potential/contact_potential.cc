@@ -22,6 +22,16 @@ void spread(const SpatialVector<dim> &force, const Facet<dim> &facet,
   for (unsigned int a = 0; a < n_nodes; ++a)
     forces[facet.nodes[a]] += shape[a] * force;
 }
+
+/// Adds a force on the contactor, and what it is on the target, if that is a body.
+template <typename NearPair, int dim>
+void add_on_both(const NearPair &near, const SpatialVector<dim> &force,
+                 std::vector<SpatialVector<dim>> &forces)
+{
+  spread<dim>(force, near.contactor, near.pair.shape, forces);
+  if (near.target != nullptr)
+    spread<dim>(-force, *near.target, near.foot.shape, forces);
+}
 } // namespace
 
 template <int dim>
@@ -71,10 +81,10 @@ double ContactPotential<dim>::search(const Positions &positions,
 template <int dim>
 double ContactPotential<dim>::renew(const Positions &positions, double old_energy)
 {
-  pairs.renew(positions);
-  body_feet.forget(pairs);
-  is_evaluated = false;
-  evaluate(positions);
+  const typename PairList<dim>::Feet found = pairs.renew(positions);
+  move_to(positions);
+  body_feet.restart(pairs, found);
+  find_all();
   return std::exchange(has_pairs, true) ? energy() - old_energy : 0.;
 }
 
@@ -82,6 +92,7 @@ template <int dim>
 void ContactPotential<dim>::set_penalty_factor(double penalty_factor)
 {
   pairs.set_penalty_factor(penalty_factor);
+  measures_of_forces.reset();
   body_feet.note_offsets();
 }
 
@@ -89,6 +100,7 @@ template <int dim>
 void ContactPotential<dim>::set_multipliers(NodalPressures<dim> multipliers)
 {
   pairs.set_multipliers(std::move(multipliers));
+  measures_of_forces.reset();
   body_feet.note_offsets();
 }
 
@@ -105,6 +117,12 @@ void ContactPotential<dim>::evaluate(const Positions &positions)
   if (is_evaluated && positions == evaluated_positions)
     return;
   move_to(positions);
+  find_all();
+}
+
+template <int dim>
+void ContactPotential<dim>::find_all()
+{
   find_feet(0.);
   evaluate_obstacle_pairs();
   is_evaluated = true;
@@ -117,14 +135,23 @@ void ContactPotential<dim>::move_to(const Positions &positions)
     body_feet.forget(pairs);
   else
   {
+    // What all nodes do in common brings none nearer to another: only how far they are from the middle of
+    // their motions counts.
     double largest_square = 0.;
+    SpatialVector<dim> low = SpatialVector<dim>::Constant(std::numeric_limits<double>::max()), high = -low;
     for (std::size_t node = 0; node < positions.size(); ++node)
-      if (const double square = (positions[node] - evaluated_positions[node]).squaredNorm();
-          !(square <= largest_square))
+    {
+      const SpatialVector<dim> motion = positions[node] - evaluated_positions[node];
+      low = low.cwiseMin(motion);
+      high = high.cwiseMax(motion);
+      if (const double square = motion.squaredNorm(); !(square <= largest_square))
         largest_square = square;
-    body_feet.note_motion(pairs.largest_motion_factor() * std::sqrt(largest_square));
+    }
+    body_feet.note_motion(pairs.largest_motion_factor() *
+                          std::min(std::sqrt(largest_square), .5 * (high - low).norm()));
   }
   evaluated_positions = positions;
+  measures_of_forces.reset();
   start_depths.clear();
 }
 
@@ -166,14 +193,15 @@ double ContactPotential<dim>::energy() const
 template <int dim>
 void ContactPotential<dim>::add_forces(std::vector<SpatialVector<dim>> &forces) const
 {
+  // A second pass over the points, to measure them, would cost as much again.
+  ContactMeasures<dim> measures = begin_measures();
   for_each_overlap_above(0.,
-                         [&forces](const NearPair &near)
+                         [&](const NearPair &near)
                          {
-                           const SpatialVector<dim> force = near.force();
-                           spread<dim>(force, near.contactor, near.pair.shape, forces);
-                           if (near.target != nullptr)
-                             spread<dim>(-force, *near.target, near.foot.shape, forces);
+                           add_on_both<NearPair, dim>(near, near.force(), forces);
+                           add_to_measures(near, measures);
                          });
+  measures_of_forces = std::move(measures);
 }
 
 template <int dim>
@@ -209,12 +237,28 @@ double ContactPotential<dim>::add_damping_forces(const std::vector<SpatialVector
                            const double rate = depth_rate(near, velocities);
                            const double pressure = damping_pressure(near, rate);
                            power += near.pair.area * pressure * rate;
-                           const SpatialVector<dim> force = near.pair.area * pressure * near.foot.normal;
-                           spread<dim>(force, near.contactor, near.pair.shape, forces);
-                           if (near.target != nullptr)
-                             spread<dim>(-force, *near.target, near.foot.shape, forces);
+                           add_on_both<NearPair, dim>(near, near.pair.area * pressure * near.foot.normal,
+                                                      forces);
                          });
   return power;
+}
+
+template <int dim>
+void ContactPotential<dim>::add_all_forces(const std::vector<SpatialVector<dim>> &velocities,
+                                           std::vector<SpatialVector<dim>> &forces,
+                                           std::vector<SpatialVector<dim>> &damping_forces) const
+{
+  ContactMeasures<dim> measures = begin_measures();
+  for_each_overlap_above(0.,
+                         [&](const NearPair &near)
+                         {
+                           const double damping = damping_pressure(near, depth_rate(near, velocities));
+                           add_on_both<NearPair, dim>(near, near.force(), forces);
+                           add_on_both<NearPair, dim>(near, near.pair.area * damping * near.foot.normal,
+                                                      damping_forces);
+                           add_to_measures(near, measures);
+                         });
+  measures_of_forces = std::move(measures);
 }
 
 template <int dim>

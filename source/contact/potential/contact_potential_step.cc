@@ -44,41 +44,44 @@ void ContactPotential<dim>::find_entries(const Positions &start)
   // Turns and bends of the target within a step account for less.
   constexpr double share_of_thickness = 0.01;
   find_feet(std::numeric_limits<double>::max()); // so that linearize() finds none anew
+  measures_of_forces.reset();
   Positions motion = evaluated_positions;
   for (std::size_t node = 0; node < motion.size(); ++node)
     motion[node] -= start[node];
-  for_each_overlap_above(0.,
-                         [&](const NearPair &near)
-                         {
-                           if (near.target == nullptr)
-                             return;
-                           const double slack = share_of_thickness * near.contactor.layer_thickness,
-                                        start_depth = near.foot.depth +
-                                                      near.foot.normal.dot(weigh(near.stencil, motion));
-                           if (start_depth <= slack)
-                             return;
-                           const double cutoff = pairs.reach(near.pair.facet) + 2. * pairs.skin();
-                           PairFoot<dim> entry = find_pair_foot(surface, pairs, near.pair, start, cutoff);
-                           if (entry.depth >= start_depth - slack)
-                             return;
-                           if (!std::isfinite(entry.depth))
-                           {
-                             body_feet.all()[near.index] = entry;
-                             return;
-                           }
-                           PairStencil<dim> stencil;
-                           stencil.add(near.contactor, near.pair.shape, 1.);
-                           stencil.add(surface.facets[entry.facet], entry.shape, -1.);
-                           entry.depth -= entry.normal.dot(weigh(stencil, motion));
-                           entry.position = near.foot.position;
-                           body_feet.all()[near.index] = entry;
-                         });
+  for_each_overlap_above(
+      0.,
+      [&](const NearPair &near)
+      {
+        if (near.target == nullptr)
+          return;
+        const double slack = share_of_thickness * near.contactor.layer_thickness,
+                     start_depth = near.foot.depth + near.foot.normal.dot(weigh(near.stencil, motion));
+        if (start_depth <= slack)
+          return;
+        const double cutoff = pairs.reach(near.pair.facet) + 2. * pairs.skin();
+        PairFoot<dim> entry = find_pair_foot(surface, pairs.neighbours()[near.pair.neighbours].candidates,
+                                             near.pair, start, cutoff);
+        if (entry.depth >= start_depth - slack)
+          return;
+        if (!std::isfinite(entry.depth))
+        {
+          body_feet.all()[near.index] = entry;
+          return;
+        }
+        PairStencil<dim> stencil;
+        stencil.add(near.contactor, near.pair.shape, 1.);
+        stencil.add(surface.facets[entry.facet], entry.shape, -1.);
+        entry.depth -= entry.normal.dot(weigh(stencil, motion));
+        entry.position = near.foot.position;
+        body_feet.all()[near.index] = entry;
+      });
 }
 
 template <int dim>
 void ContactPotential<dim>::linearize(const Positions &start)
 {
   find_feet(std::numeric_limits<double>::max());
+  measures_of_forces.reset();
   start_depths.assign(body_feet.all().size() + obstacle_feet.size(), 0.);
   is_evaluated = false;
   for (std::size_t i = 0; i < body_feet.all().size(); ++i)
@@ -116,6 +119,7 @@ template <int dim>
 void ContactPotential<dim>::follow(const Positions &increments, double time_step)
 {
   linear_time_step = time_step;
+  measures_of_forces.reset();
   for (std::size_t node = 0; node < evaluated_positions.size(); ++node)
     evaluated_positions[node] += increments[node];
   for_each_overlap_above(

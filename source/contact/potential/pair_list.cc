@@ -132,14 +132,15 @@ void PairList<dim>::search(const Positions &positions)
 }
 
 template <int dim>
-void PairList<dim>::renew(const Positions &positions)
+auto PairList<dim>::renew(const Positions &positions) -> Feet
 {
   ++n_renewals_;
 
   const Pairs old_pairs = std::move(body_pairs_);
   body_pairs_.clear();
+  Feet feet;
   for (unsigned int i = 0; i < neighbour_list.neighbours().size(); ++i)
-    add_body_pairs(i, positions);
+    add_body_pairs(i, positions, feet);
   if (settings_.integration == Integration::face_quadrature)
     keep_coefficients(old_pairs);
 
@@ -150,6 +151,7 @@ void PairList<dim>::renew(const Positions &positions)
   for (const Pairs *pairs : {&body_pairs_, &obstacle_pairs_})
     for (const ContactPair<dim> &pair : *pairs)
       largest_stiffness_ = std::max(largest_stiffness_, pair.stiffness);
+  return feet;
 }
 
 template <int dim>
@@ -181,51 +183,41 @@ double PairList<dim>::largest_offset() const
 }
 
 template <int dim>
-SurfaceFoot<dim> PairList<dim>::find_body_foot(const ContactPair<dim> &pair, const Positions &positions,
-                                               const SpatialVector<dim> &x, double cutoff) const
-{
-  const std::vector<unsigned int> &candidates = neighbour_list.neighbours()[pair.neighbours].candidates;
-  const SurfacePlace<dim> contactor{pair.facet, pair.xi};
-  return find_foot(surface.facets, positions, candidates.data(), static_cast<unsigned int>(candidates.size()),
-                   x, cutoff, &contactor);
-}
-
-template <int dim>
-void PairList<dim>::add_body_pairs(unsigned int neighbours, const Positions &positions)
+void PairList<dim>::add_body_pairs(unsigned int neighbours, const Positions &positions, Feet &feet)
 {
   const FacetNeighbours &found = neighbour_list.neighbours()[neighbours];
+  Making making{neighbours, positions, {surface.facets, positions, found.candidates}, feet};
   if (settings_.integration == Integration::face_segments)
     for (const unsigned int candidate : found.candidates)
-      add_segment_pairs(neighbours, candidate, positions);
+      add_segment_pairs(candidate, making);
   else
     for (const FacetPoint &point : gauss_points[index(surface.facets[found.facet])])
-      add_body_pair(neighbours, point, std::nullopt, positions);
+      add_body_pair(point, std::nullopt, making);
 }
 
 template <int dim>
-void PairList<dim>::add_segment_pairs(unsigned int neighbours, unsigned int candidate,
-                                      const Positions &positions)
+void PairList<dim>::add_segment_pairs(unsigned int candidate, Making &making)
 {
-  const Facet<dim> &contactor = surface.facets[neighbour_list.neighbours()[neighbours].facet];
-  for (const auto &point :
-       make_segment_points(gather_nodes(contactor, positions),
-                           gather_nodes(surface.facets[candidate], positions), settings_.n_quadrature_points))
-    add_body_pair(neighbours, {point, evaluate_facet_shape(contactor, point.xi).value}, candidate, positions);
+  const Facet<dim> &contactor = surface.facets[neighbour_list.neighbours()[making.neighbours].facet];
+  for (const auto &point : make_segment_points(gather_nodes(contactor, making.positions),
+                                               gather_nodes(surface.facets[candidate], making.positions),
+                                               settings_.n_quadrature_points))
+    add_body_pair({point, evaluate_facet_shape(contactor, point.xi).value}, candidate, making);
 }
 
 template <int dim>
-void PairList<dim>::add_body_pair(unsigned int neighbours, const FacetPoint &point,
-                                  std::optional<unsigned int> facing, const Positions &positions)
+void PairList<dim>::add_body_pair(const FacetPoint &point, std::optional<unsigned int> facing, Making &making)
 {
   ContactPair<dim> pair;
-  pair.facet = neighbour_list.neighbours()[neighbours].facet;
-  pair.target = neighbour_list.neighbours()[neighbours].target_body;
-  pair.neighbours = neighbours;
+  pair.neighbours = making.neighbours;
+  pair.facet = neighbour_list.neighbours()[pair.neighbours].facet;
+  pair.target = neighbour_list.neighbours()[pair.neighbours].target_body;
   pair.xi = point.point.xi;
 
   const double motion = largest_motion_factor_ * skin_;
-  const SpatialVector<dim> x = interpolate(surface.facets[pair.facet], point.shape, positions);
-  const SurfaceFoot<dim> foot = find_body_foot(pair, positions, x, reach_[pair.facet] + motion);
+  const SpatialVector<dim> x = interpolate(surface.facets[pair.facet], point.shape, making.positions);
+  const SurfacePlace<dim> contactor{pair.facet, pair.xi};
+  const SurfaceFoot<dim> foot = making.search.find(x, reach_[pair.facet] + motion, &contactor);
   if (foot.depth < -2. * motion) // too far outside (or −∞) to touch before the next renewal
     return;
   if (facing && foot.facet != *facing)
@@ -233,13 +225,15 @@ void PairList<dim>::add_body_pair(unsigned int neighbours, const FacetPoint &poi
     // A facet that faces the contactor from the far side of its own body must not make a second point here.
     // It is told by its distance; near a rim, where the foot may be on the side, the facet above is still
     // meant.
-    const double distance = find_closest_point(gather_nodes(surface.facets[*facing], positions), x).distance;
+    const double distance =
+        find_closest_point(gather_nodes(surface.facets[*facing], making.positions), x).distance;
     const double far = std::max(2. * foot.closest.distance, .5 * reach_[pair.facet]);
     if (distance > std::min(far, reach_[pair.facet]))
       return;
   }
   set_coefficients(pair, point, &surface.facets[foot.facet]);
   body_pairs_.push_back(pair);
+  making.feet.push_back(foot);
 }
 
 template <int dim>

@@ -29,14 +29,12 @@ std::vector<unsigned int> find_unseen_contact(const ContactSurface<dim> &surface
     const Facet<dim> &facet = surface.facets[near.facet];
     if (!facet.owned || is_unseen[near.facet])
       continue;
-    is_unseen[near.facet] = std::any_of(facet.nodes.begin(), facet.nodes.begin() + facet.n_nodes(),
-                                        [&](unsigned int node)
-                                        {
-                                          return find_foot(surface.facets, positions, near.candidates.data(),
-                                                           static_cast<unsigned int>(near.candidates.size()),
-                                                           positions[node], pairs.reach(near.facet))
-                                                     .depth > known_depth[node];
-                                        });
+    const FootSearch<dim> feet(surface.facets, positions, near.candidates);
+    is_unseen[near.facet] =
+        std::any_of(facet.nodes.begin(), facet.nodes.begin() + facet.n_nodes(),
+                    [&](unsigned int node) {
+                      return feet.find(positions[node], pairs.reach(near.facet)).depth > known_depth[node];
+                    });
   }
   std::vector<unsigned int> unseen;
   for (unsigned int f = 0; f < is_unseen.size(); ++f)

@@ -84,8 +84,8 @@ std::optional<InteriorPoint<dim>> InteriorSearch<dim>::find_in_body(const Spatia
     nearest =
         std::min(nearest, find_closest_point(gather_nodes(surface.facets[facet], positions), x).distance);
   }
-  const SurfaceFoot<dim> foot = find_foot(surface.facets, positions, candidates.data(), candidates.size(), x,
-                                          std::numeric_limits<double>::infinity());
+  const SurfaceFoot<dim> foot =
+      FootSearch<dim>(surface.facets, positions, candidates).find(x, std::numeric_limits<double>::infinity());
   if (!(foot.depth > 0.))
     return {};
   return InteriorPoint<dim>{body, foot.facet, foot.depth, foot.closest.position};

@@ -79,8 +79,7 @@ struct Surface
   {
     std::vector<unsigned int> candidates(facets.size());
     std::iota(candidates.begin(), candidates.end(), 0u);
-    return find_foot(facets, positions, candidates.data(), static_cast<unsigned int>(candidates.size()), x,
-                     cutoff);
+    return FootSearch<dim>(facets, positions, candidates).find(x, cutoff);
   }
 };
 
@@ -365,8 +364,7 @@ TEST(Depth, IsMinusInfinityWhereAllFacetsAreBeyondTheCutoff)
   slope.add_patch({0., 0., 0.}, {SpatialVector<3>(1., 0., 1.), SpatialVector<3>(0., 1., 0.)});
   EXPECT_EQ(slope.find({0.9, 0.5, 0.1}, 0.5).depth, -infinity);
   EXPECT_NEAR(slope.find({0.9, 0.5, 0.1}, 0.6).depth, 0.8 * std::sqrt(0.5), 1e-15);
-  EXPECT_EQ(find_foot<3>(surface.facets, surface.positions, nullptr, 0, {0.5, 0.5, 0.5}, 1.).depth,
-            -infinity);
+  EXPECT_EQ(FootSearch<3>(surface.facets, surface.positions, {}).find({0.5, 0.5, 0.5}, 1.).depth, -infinity);
 }
 
 TEST(Depth, HasNoInsideBesideTheRimOfAnOpenSurface)

@@ -37,10 +37,10 @@ struct Spike
 
   SurfaceFoot<2> find_foot_of(double aside, double height = .05) const
   {
-    const unsigned int flanks[] = {0, 1};
+    const std::vector<unsigned int> flanks = {0, 1};
     const SurfacePlace<2> contactor{2, LocalPoint<2>::Constant(.5)};
-    return find_foot(facets, positions, flanks, 2, {.3 + aside, .7 + height},
-                     std::numeric_limits<double>::infinity(), &contactor);
+    return FootSearch<2>(facets, positions, flanks)
+        .find({.3 + aside, .7 + height}, std::numeric_limits<double>::infinity(), &contactor);
   }
 
   static double depth(double toward, double height = .05) { return (.1 * height + toward) / std::sqrt(1.01); }

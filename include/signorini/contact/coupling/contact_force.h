@@ -38,6 +38,10 @@ public:
   /// Adds the damping forces at the given velocities; returns the power dissipated by all ranks [W].
   double add_damping_force(const Vector &velocity, Vector &force) const;
 
+  /// Adds the contact and damping forces at the given velocities to `force`, and the latter to
+  /// `damping_force`.
+  void add_all_forces(const Vector &velocity, Vector &force, Vector &damping_force) const;
+
   /// See ContactPotential::find_entries() and linearize(); after update().
   void find_entries(const Vector &start) { potential.find_entries(map.positions(start)); }
   void linearize(const Vector &start) { potential.linearize(map.positions(start)); }

@@ -3,6 +3,7 @@
 
 #include "signorini/contact/geometry/closest_point.h"
 
+#include <optional>
 #include <vector>
 
 namespace signorini::contact
@@ -24,8 +25,12 @@ struct SurfacePlace
   LocalPoint<dim> xi;
 };
 
-/// Finds the foot of `x` on the surface that the facets `candidates[0 … n_candidates)` form (all of one
-/// body), and the sign of its depth.
+template <int dim>
+struct Fan;
+template <int dim>
+class Facing;
+
+/// Finds feet on the surface that some facets of one body form, and the signs of their depths.
 ///
 /// The sign comes from the normal of the surface at the foot. Where the foot lies on an edge or a corner
 /// shared by several facets, that normal is the sum of the facets' unit normals weighted with the angle each
@@ -44,11 +49,59 @@ struct SurfacePlace
 ///
 /// Where the facets at the foot do not close around it (the rim of an open surface), only a point within 45°
 /// of being right below counts as inside; beside the rim there is no inside.
-///
-/// Facets farther than `cutoff` are left out; if all are, returns a foot with depth −∞.
 template <int dim>
-SurfaceFoot<dim> find_foot(const std::vector<Facet<dim>> &facets,
-                           const std::vector<SpatialVector<dim>> &positions, const unsigned int *candidates,
-                           unsigned int n_candidates, const SpatialVector<dim> &x, double cutoff,
-                           const SurfacePlace<dim> *contactor = nullptr);
+class FootSearch
+{
+public:
+  /// `candidates` are indices into the surface's facets. All arguments must outlive this object and stay.
+  FootSearch(const std::vector<Facet<dim>> &facets, const std::vector<SpatialVector<dim>> &positions,
+             const std::vector<unsigned int> &candidates);
+
+  /// The foot of `x`. Facets farther than `cutoff` [m] are left out; if all are, returns a foot with depth
+  /// −∞.
+  SurfaceFoot<dim> find(const SpatialVector<dim> &x, double cutoff,
+                        const SurfacePlace<dim> *contactor = nullptr) const;
+
+private:
+  struct Box
+  {
+    SpatialVector<dim> middle, half_width;
+
+    double squared_distance(const SpatialVector<dim> &x) const
+    {
+      return ((x - middle).cwiseAbs() - half_width).cwiseMax(0.).squaredNorm();
+    }
+  };
+  struct Nearest
+  {
+    unsigned int candidate;
+    ClosestPoint<dim> closest;
+  };
+
+  static Box make_box(const FacetNodes<dim> &nodes);
+  FacetNodes<dim> nodes_of(unsigned int candidate) const
+  {
+    return gather_nodes(facets[candidates[candidate]], positions);
+  }
+
+  /// The candidate whose box is nearest to `x`, with the closest point on it; none if it is beyond the
+  /// cutoff.
+  std::optional<Nearest> find_nearest_box(const SpatialVector<dim> &x, double cutoff) const;
+
+  /// The closest facet, its foot's depth not yet signed.
+  SurfaceFoot<dim> find_closest_facet(const SpatialVector<dim> &x, double cutoff, Facing<dim> facing) const;
+
+  /// For a point below the surface whose foot lies on the back of a spike, on the flank that looks the way
+  /// the point's own surface does: its foot on the other flank, if that is hardly farther.
+  SurfaceFoot<dim> turn_to_front(const SurfaceFoot<dim> &foot, const SpatialVector<dim> &x,
+                                 Facing<dim> facing) const;
+
+  /// All candidates that hold the place `foot`, together.
+  Fan<dim> gather_fan(const SpatialVector<dim> &foot) const;
+
+  const std::vector<Facet<dim>> &facets;
+  const std::vector<SpatialVector<dim>> &positions;
+  const std::vector<unsigned int> &candidates;
+  std::vector<Box> boxes; ///< one a candidate
+};
 } // namespace signorini::contact

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <optional>
 
 namespace signorini::contact
 {
@@ -83,6 +84,12 @@ public:
   /// conservative ones. Does nothing without a damping ratio. Returns the dissipated power [W], ≥ 0.
   double add_damping_forces(const std::vector<SpatialVector<dim>> &velocities,
                             std::vector<SpatialVector<dim>> &forces) const;
+
+  /// Adds the forces of add_forces() to `forces` and those of add_damping_forces() to `damping_forces`, in
+  /// one pass over the points.
+  void add_all_forces(const std::vector<SpatialVector<dim>> &velocities,
+                      std::vector<SpatialVector<dim>> &forces,
+                      std::vector<SpatialVector<dim>> &damping_forces) const;
 
   /// Share of the skin up to which a gap counts as closed in tangents.
   static constexpr double verge = 1e-8;
@@ -229,6 +236,7 @@ public:
     archive &pairs &places &places_before &has_pairs &is_evaluated;
     archive &evaluated_positions &body_feet &obstacle_feet &obstacle_hessians;
     archive &start_depths &linear_time_step;
+    measures_of_forces.reset();
   }
 
 private:
@@ -236,12 +244,15 @@ private:
 
   /// Lets the feet on bodies be those of other positions.
   void move_to(const Positions &positions);
+  /// Finds there what forces need.
+  void find_all();
   /// Those less than `gap` outside of their targets.
   void find_feet(double gap) const { body_feet.find_within(gap, evaluated_positions, surface, pairs); }
   double renew(const Positions &positions, double old_energy);
   void evaluate_obstacle_pairs();
   double depth_rate(const NearPair &near, const std::vector<SpatialVector<dim>> &velocities) const;
   double damping_pressure(const NearPair &near, double depth_rate) const;
+  ContactMeasures<dim> begin_measures() const;
   void add_to_measures(const NearPair &near, ContactMeasures<dim> &measures) const;
 
   /// The shape functions of the foot moved so that it lies below or above the point at `start`.
@@ -257,6 +268,8 @@ private:
   mutable BodyFeet<dim> body_feet;                   ///< found as far as they were asked for
   std::vector<PairFoot<dim>> obstacle_feet;          ///< one an obstacle pair
   std::vector<SpatialTensor<dim>> obstacle_hessians; ///< of the depth, one an obstacle pair
+
+  mutable std::optional<ContactMeasures<dim>> measures_of_forces; ///< taken with the last forces, if any
 
   std::vector<double> start_depths; ///< in implicit steps: at the start, body pairs first [m]
   double linear_time_step = 0.;     ///< of the last follow() [s]

@@ -24,6 +24,7 @@ public:
   using Positions = std::vector<SpatialVector<dim>>;
   using Obstacles = std::vector<std::shared_ptr<const Obstacle<dim>>>;
   using Pairs = std::vector<ContactPair<dim>>;
+  using Feet = std::vector<SurfaceFoot<dim>>;
 
   /// `contact_surface` must outlive this object. Throws std::invalid_argument for settings or facets without
   /// sense.
@@ -42,8 +43,8 @@ public:
   /// Searches neighbours anew; renew() must follow.
   void search(const Positions &positions);
 
-  /// Makes all pairs anew.
-  void renew(const Positions &positions);
+  /// Makes all pairs anew. Returns the feet of those of bodies, one a pair.
+  Feet renew(const Positions &positions);
 
   /// Of the nodes at the last search; empty before the first.
   const Positions &positions_at_search() const { return neighbour_list.positions_at_search(); }
@@ -76,10 +77,6 @@ public:
   /// Pressures λ ≥ 0 that the points of each facet start from, [facet][node of the facet] [Pa], also for
   /// pairs still to be made. Empty: none.
   void set_multipliers(NodalPressures<dim> new_multipliers);
-
-  /// The foot of `x`, a point of the pair's contactor, on its target body, no farther than `cutoff`.
-  SurfaceFoot<dim> find_body_foot(const ContactPair<dim> &pair, const Positions &positions,
-                                  const SpatialVector<dim> &x, double cutoff) const;
 
   /// How deep a point of that owned facet sees another body [m].
   double reach(unsigned int facet) const { return reach_[facet]; }
@@ -128,12 +125,20 @@ private:
   /// whichever facet it has come nearest to, so that renewal brings no energy.
   void keep_coefficients(const Pairs &old_pairs);
 
-  void add_body_pairs(unsigned int neighbours, const Positions &positions);
-  void add_segment_pairs(unsigned int neighbours, unsigned int candidate, const Positions &positions);
+  /// What the points of an entry of the neighbour list are made with, and the feet of those that were.
+  struct Making
+  {
+    unsigned int neighbours;
+    const Positions &positions;
+    FootSearch<dim> search;
+    Feet &feet;
+  };
+
+  void add_body_pairs(unsigned int neighbours, const Positions &positions, Feet &feet);
+  void add_segment_pairs(unsigned int candidate, Making &making);
 
   /// `facing`: the target facet that a segment's point was made for.
-  void add_body_pair(unsigned int neighbours, const FacetPoint &point, std::optional<unsigned int> facing,
-                     const Positions &positions);
+  void add_body_pair(const FacetPoint &point, std::optional<unsigned int> facing, Making &making);
   void add_obstacle_pairs(unsigned int obstacle, const Positions &positions);
 
   /// Area, stiffness and damping; `target` is null for an obstacle.
