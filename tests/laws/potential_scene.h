@@ -202,19 +202,29 @@ Positions<dim> compute_forces(const Potential<dim> &potential, std::size_t n_nod
   return forces;
 }
 
+/// Zeros, a row for each component of each node.
+template <int dim>
+Eigen::MatrixXd make_square(std::size_t n_nodes)
+{
+  const auto size = static_cast<Eigen::Index>(dim * n_nodes);
+  return Eigen::MatrixXd::Zero(size, size);
+}
+
+template <int dim>
+void add_block(const std::vector<unsigned int> &nodes, const Eigen::MatrixXd &block, Eigen::MatrixXd &matrix)
+{
+  for (std::size_t a = 0; a < nodes.size(); ++a)
+    for (std::size_t b = 0; b < nodes.size(); ++b)
+      matrix.template block<dim, dim>(dim * nodes[a], dim * nodes[b]) +=
+          block.template block<dim, dim>(dim * a, dim * b);
+}
+
 template <int dim, template <int> class Potential>
 Eigen::MatrixXd compute_tangent(const Potential<dim> &potential, std::size_t n_nodes)
 {
-  const auto size = static_cast<Eigen::Index>(dim * n_nodes);
-  Eigen::MatrixXd tangent = Eigen::MatrixXd::Zero(size, size);
-  potential.for_each_tangent(
-      [&](const std::vector<unsigned int> &nodes, const Eigen::MatrixXd &block)
-      {
-        for (std::size_t a = 0; a < nodes.size(); ++a)
-          for (std::size_t b = 0; b < nodes.size(); ++b)
-            tangent.template block<dim, dim>(dim * nodes[a], dim * nodes[b]) +=
-                block.template block<dim, dim>(dim * a, dim * b);
-      });
+  Eigen::MatrixXd tangent = make_square<dim>(n_nodes);
+  potential.for_each_tangent([&](const auto &nodes, const Eigen::MatrixXd &block)
+                             { add_block<dim>(nodes, block, tangent); });
   return tangent;
 }
 

@@ -2,6 +2,8 @@
 // The laws of damping and samples; contact_laws.cc says on which scenes.
 #include "law_suites.h"
 
+#include <map>
+
 using namespace signorini;
 using namespace signorini::contact;
 using namespace signorini::test;
@@ -105,6 +107,44 @@ TEST_P(SurfaceLaws, AllForcesAndMeasuresComeInOnePass)
 }
 
 /// Towards contact nothing is clipped, and the damping force is linear in the velocities.
+TEST_P(SurfaceLaws, TheConvexTangentIsThatOfSquaredRatesOfDepth)
+{
+  on_scene(
+      [](const auto &scene, auto dimension)
+      {
+        constexpr int dim = decltype(dimension)::value;
+        constexpr double step = 1e-7;
+        auto potential = scene.make_potential();
+        potential.update(scene.positions);
+        const auto direction = RandomVectors<dim>(4).field(scene.positions.size(), 1.);
+        const auto depths_at = [&](double t)
+        {
+          potential.evaluate(shifted<dim>(scene.positions, direction, t));
+          std::map<std::size_t, double> depths;
+          potential.for_each_overlap_above(-1e-3,
+                                           [&](const auto &near) { depths[near.index] = near.foot.depth; });
+          return depths;
+        };
+        const auto after = depths_at(step), before = depths_at(-step);
+        potential.evaluate(scene.positions);
+        double expected = 0.;
+        potential.for_each_overlap_above(0.,
+                                         [&](const auto &near)
+                                         {
+                                           const double rate =
+                                               (after.at(near.index) - before.at(near.index)) / (2. * step);
+                                           expected += near.pair.area * near.pair.stiffness * rate * rate;
+                                         });
+        Eigen::MatrixXd tangent = make_square<dim>(scene.positions.size());
+        potential.for_each_tangent([&](const auto &nodes, const Eigen::MatrixXd &block)
+                                   { add_block<dim>(nodes, block, tangent); },
+                                   true);
+        const Eigen::VectorXd u = flatten<dim>(direction);
+        EXPECT_GT(expected, 0.);
+        EXPECT_NEAR(u.dot(tangent * u), expected, 1e-5 * expected);
+      });
+}
+
 TEST_P(SurfaceLaws, RowSumsBoundDamping)
 {
   on_scene(

@@ -98,9 +98,9 @@ public:
   /// Pairs on the very verge of contact count as active here, so that bodies laid exactly upon each other
   /// hold each other.
   /// With `is_convex` the blocks are A k_A ∇d∇dᵀ alone, which are positive semidefinite.
-  void for_each_tangent(const std::function<void(const std::vector<unsigned int> &nodes,
-                                                 const Eigen::MatrixXd &block)> &add,
-                        bool is_convex = false) const;
+  void for_each_tangent(
+      const std::function<void(const std::vector<unsigned int> &nodes, const Eigen::MatrixXd &block)> &add,
+      bool is_convex = false) const;
 
   /// Calls `add(nodes)` with the nodes that may couple until neighbours are searched again: those of every
   /// owned facet and of all facets of one other body near it.
