@@ -63,7 +63,6 @@ void BodyFeet<dim>::forget(const PairList<dim> &pair_list)
   feet.resize(pair_list.body_pairs().size());
   sleeps_until.assign(feet.size(), -infinity);
   alone_until.assign(feet.size(), -infinity);
-  all_near.resize(pair_list.neighbours().size());
   for (Near &near : all_near)
     near.covers = -infinity;
   found_within = -1.;
@@ -122,6 +121,7 @@ void BodyFeet<dim>::find_within(double gap, const Positions &positions,
   found_within = gap;
   ++date;
   boxes.resize(surface->facets.size());
+  all_near.resize(pairs->neighbours().size());
   find_awake(gap);
   touching_.clear();
   for (std::size_t begin = 0; begin < awake.size(); begin += chunk.n)

@@ -51,6 +51,8 @@ public:
   void serialize(Archive &archive, unsigned int /*version*/)
   {
     archive &feet &sleeps_until &alone_until &way &found_within &touching_;
+    if (Archive::is_loading::value)
+      all_near.clear();
   }
 
 private:
