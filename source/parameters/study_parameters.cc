@@ -49,8 +49,7 @@ const std::vector<FactorEntry> &factor_entries()
        "What 'Bulk step factor' and 'Contact step factor' of 'Explicit' are multiplied by."},
       {Factor::copies, "Copies", any_text(), "",
        "Values of 'Number' of the 'Copies' of every body that has them, with spaces, separated by commas, "
-       "such "
-       "as 10 10 1, 10 10 10."}};
+       "such as 10 10 1, 10 10 10."}};
   return entries;
 }
 

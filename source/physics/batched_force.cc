@@ -207,16 +207,6 @@ void BatchedForce<dim>::compute_stretches(const Vector &displacement, std::vecto
   }
 }
 
-template <int dim>
-std::size_t BatchedForce<dim>::memory() const
-{
-  std::size_t bytes = nodal_displacement.memory_consumption() + nodal_force.memory_consumption();
-  for (const Group &group : groups)
-    bytes += group.geometry.memory_consumption() +
-             sizeof(unsigned int) * (group.nodes.size() + group.cells.size());
-  return bytes;
-}
-
 template class BatchedForce<2>;
 template class BatchedForce<3>;
 } // namespace signorini

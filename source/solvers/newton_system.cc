@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "signorini/solvers/newton_system.h"
 
+#include <algorithm>
+
 namespace signorini
 {
 template <int dim>
@@ -92,7 +94,9 @@ void NewtonSystem<dim>::assemble(const Vector &forces, ContactTangent kind)
   if (n_searches() != n_searches_of_matrix)
     rebuild_matrix();
   // What supports that move bring to the right hand side comes with the assembly of the cells.
-  const bool is_all_anew = do_supports_move;
+  const bool is_all_anew =
+      do_supports_move || std::none_of(terms->begin(), terms->end(),
+                                       [](const auto &term) { return term->has_constant_tangent(); });
   system.right_hand_side = 0.;
   if (!is_all_anew && constant_part.m() == 0)
     assemble_constant_part();

@@ -104,7 +104,8 @@ double QuasiStaticSolver<dim>::forcing(double residual, double residual_before) 
   constexpr double exact = 1e-8, coarsest = 0.01;
   if (forces->contacts.empty() && forces->elasticity->has_constant_tangent())
     return exact;
-  const double ratio = std::min(1., residual / residual_before);
+  const bool is_first = residual_before == std::numeric_limits<double>::max();
+  const double ratio = is_first ? 1. : residual / residual_before;
   const double enough = std::max(exact, 0.1 * parameters.tolerance / residual);
   return std::min(coarsest, std::max(enough, 0.9 * ratio * ratio));
 }
@@ -113,9 +114,7 @@ template <int dim>
 unsigned int QuasiStaticSolver<dim>::compute_increment(double residual, double residual_before,
                                                        Vector &increment)
 {
-  const double tolerance = residual_before < std::numeric_limits<double>::max()
-                               ? forcing(residual, residual_before)
-                               : forcing(residual, residual);
+  const double tolerance = forcing(residual, residual_before);
   // Far from equilibrium bodies may lie so deep in each other that the exact tangent is indefinite; near it
   // only the exact one converges fast.
   if (residual < 0.2)

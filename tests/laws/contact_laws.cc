@@ -71,9 +71,7 @@ TEST_P(ContactLaws, ForcesAreTheGradientOfEnergy)
       [](const auto &scene, auto dimension)
       {
         constexpr int dim = decltype(dimension)::value;
-        auto potential = scene.make_potential();
-        potential.update(scene.positions);
-        potential.evaluate(scene.positions);
+        auto potential = evaluate(scene);
         EXPECT_GT(potential.measure().n_active, 1u);
         const auto forces = compute_forces(potential, scene.positions.size());
         RandomVectors<dim> random(1);
@@ -98,9 +96,7 @@ TEST_P(ContactLaws, TangentIsTheDerivativeOfForces)
       [](const auto &scene, auto dimension)
       {
         constexpr int dim = decltype(dimension)::value;
-        auto potential = scene.make_potential();
-        potential.update(scene.positions);
-        potential.evaluate(scene.positions);
+        auto potential = evaluate(scene);
         const std::size_t n = scene.positions.size();
         const Eigen::MatrixXd tangent = compute_tangent(potential, n);
         EXPECT_LE((tangent - tangent.transpose()).cwiseAbs().maxCoeff(),
@@ -130,9 +126,7 @@ TEST_P(ContactLaws, ActionEqualsReaction)
         constexpr int dim = decltype(dimension)::value;
         if (!scene.is_between_bodies())
           return;
-        auto potential = scene.make_potential();
-        potential.update(scene.positions);
-        potential.evaluate(scene.positions);
+        auto potential = evaluate(scene);
         const auto forces = compute_forces(potential, scene.positions.size());
         EXPECT_GT(norm<dim>(forces), 0.);
         EXPECT_LT(measure_imbalance<dim>(scene.positions, forces), 1e-13 * norm<dim>(forces) * 10.);
@@ -150,9 +144,7 @@ TEST_P(ContactLaws, EnergyIsInvariantUnderRotationAndShift)
       [](auto scene, auto dimension)
       {
         constexpr int dim = decltype(dimension)::value;
-        auto potential = scene.make_potential();
-        potential.update(scene.positions);
-        potential.evaluate(scene.positions);
+        auto potential = evaluate(scene);
         EXPECT_GT(potential.energy(), 0.);
         RandomVectors<dim> random(4);
         const auto untouched = scene.positions;
@@ -160,9 +152,7 @@ TEST_P(ContactLaws, EnergyIsInvariantUnderRotationAndShift)
         {
           scene.positions = untouched;
           scene.move(random.rotation(), random.vector(distance));
-          auto moved_potential = scene.make_potential();
-          moved_potential.update(scene.positions);
-          moved_potential.evaluate(scene.positions);
+          auto moved_potential = evaluate(scene);
           EXPECT_NEAR(moved_potential.energy(), potential.energy(), 5e-12 * distance * potential.energy());
         }
       });
@@ -228,9 +218,7 @@ TEST_P(ContactLaws, ClosedLoopDoesNoWork)
       {
         constexpr int dim = decltype(dimension)::value;
         const Loop<dim> loop = scene.make_loop();
-        auto potential = scene.make_potential();
-        potential.update(scene.positions);
-        potential.evaluate(scene.positions);
+        auto potential = evaluate(scene);
         double peak = potential.energy();
         const auto power = [&](double angle)
         {
@@ -259,9 +247,7 @@ TEST_P(ContactLaws, RowSumsBoundTheLargestEigenvalue)
   on_scene(
       [](const auto &scene, auto)
       {
-        auto potential = scene.make_potential();
-        potential.update(scene.positions);
-        potential.evaluate(scene.positions);
+        auto potential = evaluate(scene);
         const std::size_t n = scene.positions.size();
         const auto stiffness = bound_stiffness(potential, n);
         const double bound = *std::max_element(stiffness.begin(), stiffness.end());
@@ -280,18 +266,16 @@ TEST_P(ContactLaws, OwnersAddUpToTheWhole)
       [](auto scene, auto dimension)
       {
         constexpr int dim = decltype(dimension)::value;
-        const auto evaluate = [&scene](unsigned int first, unsigned int step)
+        const auto evaluate_part = [&scene](unsigned int first, unsigned int step)
         {
           for (unsigned int i = 0; i < scene.parts().size(); ++i)
             scene.parts()[i].owned = i % step == first;
-          auto potential = scene.make_potential();
-          potential.update(scene.positions);
-          potential.evaluate(scene.positions);
+          auto potential = evaluate(scene);
           return std::pair(potential.energy(), compute_forces(potential, scene.positions.size()));
         };
-        const auto whole = evaluate(0, 1);
-        const auto even = evaluate(0, 2);
-        const auto odd = evaluate(1, 2);
+        const auto whole = evaluate_part(0, 1);
+        const auto even = evaluate_part(0, 2);
+        const auto odd = evaluate_part(1, 2);
         EXPECT_GT(even.first, 0.);
         EXPECT_GT(odd.first, 0.);
         EXPECT_NEAR(whole.first, even.first + odd.first, 1e-14 * whole.first);

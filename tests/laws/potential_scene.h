@@ -194,6 +194,16 @@ double norm(const Positions<dim> &u)
   return std::sqrt(dot<dim>(u, u));
 }
 
+/// The potential of a scene, at its positions.
+template <typename Scene>
+auto evaluate(const Scene &scene)
+{
+  auto potential = scene.make_potential();
+  potential.update(scene.positions);
+  potential.evaluate(scene.positions);
+  return potential;
+}
+
 template <int dim, template <int> class Potential>
 Positions<dim> compute_forces(const Potential<dim> &potential, std::size_t n_nodes)
 {

@@ -18,9 +18,7 @@ TEST_P(StepLaws, PairForcesHaveNoMomentAboutTheStart)
         constexpr int dim = decltype(dimension)::value;
         if (!scene.is_between_bodies())
           return;
-        auto potential = scene.make_potential();
-        potential.update(scene.positions);
-        potential.evaluate(scene.positions);
+        auto potential = evaluate(scene);
         const Positions<dim> start = make_start(scene);
         const auto before = compute_forces(potential, start.size());
         EXPECT_GT(measure_imbalance<dim>(start, before), 1e-4 * norm<dim>(before))
@@ -44,9 +42,7 @@ TEST_P(StepLaws, ForcesAreTheGradientOfTheEnergyThatFollows)
       {
         constexpr int dim = decltype(dimension)::value;
         constexpr double length = 1e-6;
-        auto potential = scene.make_potential();
-        potential.update(scene.positions);
-        potential.evaluate(scene.positions);
+        auto potential = evaluate(scene);
         potential.linearize(make_start(scene));
         const auto forces = compute_forces(potential, scene.positions.size());
         RandomVectors<dim> random(13);
@@ -70,9 +66,7 @@ TEST_P(StepLaws, LinearPointsTellForcesAndDepths)
       [](const auto &scene, auto dimension)
       {
         constexpr int dim = decltype(dimension)::value;
-        auto potential = scene.make_potential();
-        potential.update(scene.positions);
-        potential.evaluate(scene.positions);
+        auto potential = evaluate(scene);
         const Positions<dim> start = make_start(scene);
         potential.linearize(start);
         auto forces = compute_forces(potential, start.size());
@@ -109,9 +103,7 @@ TEST_P(StepLaws, DampingTakesThePowerOfTheWayInContact)
       {
         constexpr int dim = decltype(dimension)::value;
         constexpr double time_step = 1e-3;
-        auto potential = scene.make_potential();
-        potential.update(scene.positions);
-        potential.evaluate(scene.positions);
+        auto potential = evaluate(scene);
         potential.linearize(make_start(scene));
         potential.follow(scene.zeros(), time_step);
         auto damping = scene.zeros();
@@ -141,9 +133,7 @@ TEST_P(StepLaws, EvaluationEndsTheStep)
       [](const auto &scene, auto dimension)
       {
         constexpr int dim = decltype(dimension)::value;
-        auto potential = scene.make_potential();
-        potential.update(scene.positions);
-        potential.evaluate(scene.positions);
+        auto potential = evaluate(scene);
         const auto forces = compute_forces(potential, scene.positions.size());
         potential.linearize(make_start(scene));
         potential.follow(scene.zeros(), 1.);

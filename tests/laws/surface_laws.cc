@@ -16,9 +16,7 @@ TEST_P(SurfaceLaws, DampingActsEquallyOnBothBodies)
         constexpr int dim = decltype(dimension)::value;
         if (!scene.is_between_bodies())
           return;
-        auto potential = scene.make_potential();
-        potential.update(scene.positions);
-        potential.evaluate(scene.positions);
+        auto potential = evaluate(scene);
         RandomVectors<dim> random(3);
         auto damping_forces = scene.zeros();
         potential.add_damping_forces(random.field(scene.positions.size(), 1.), damping_forces);
@@ -55,9 +53,7 @@ TEST_P(SurfaceLaws, DampingOnlyDissipates)
       [](const auto &scene, auto dimension)
       {
         constexpr int dim = decltype(dimension)::value;
-        auto potential = scene.make_potential();
-        potential.update(scene.positions);
-        potential.evaluate(scene.positions);
+        auto potential = evaluate(scene);
         RandomVectors<dim> random(6);
         for (double speed : {1e-3, 1., 1e3})
         {
@@ -85,9 +81,7 @@ TEST_P(SurfaceLaws, AllForcesAndMeasuresComeInOnePass)
       [](const auto &scene, auto dimension)
       {
         constexpr int dim = decltype(dimension)::value;
-        auto potential = scene.make_potential();
-        potential.update(scene.positions);
-        potential.evaluate(scene.positions);
+        auto potential = evaluate(scene);
         const auto measures = potential.measure();
         const auto velocities = RandomVectors<dim>(6).field(scene.positions.size(), 1.);
         auto forces = scene.zeros(), damping_forces = scene.zeros();
@@ -106,7 +100,6 @@ TEST_P(SurfaceLaws, AllForcesAndMeasuresComeInOnePass)
       });
 }
 
-/// Towards contact nothing is clipped, and the damping force is linear in the velocities.
 TEST_P(SurfaceLaws, TheConvexTangentIsThatOfSquaredRatesOfDepth)
 {
   on_scene(
@@ -145,15 +138,14 @@ TEST_P(SurfaceLaws, TheConvexTangentIsThatOfSquaredRatesOfDepth)
       });
 }
 
+/// Towards contact nothing is clipped, and the damping force is linear in the velocities.
 TEST_P(SurfaceLaws, RowSumsBoundDamping)
 {
   on_scene(
       [](const auto &scene, auto dimension)
       {
         constexpr int dim = decltype(dimension)::value;
-        auto potential = scene.make_potential();
-        potential.update(scene.positions);
-        potential.evaluate(scene.positions);
+        auto potential = evaluate(scene);
         const std::size_t n = scene.positions.size();
         std::vector<double> stiffness(n, 0.), damping(n, 0.);
         potential.add_row_sum_bounds(stiffness, damping);

@@ -35,9 +35,6 @@ public:
   /// Writes the volume means of H + Hᵀ + HᵀH of its cells to `stretches` [own cell].
   void compute_stretches(const Vector &displacement, std::vector<Stretch> &stretches) const;
 
-  /// Of its arrays [B].
-  std::size_t memory() const;
-
 private:
   /// Cells of one shape and material.
   struct Group

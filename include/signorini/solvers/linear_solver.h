@@ -23,7 +23,8 @@ class LinearSolver
 public:
   virtual ~LinearSolver() = default;
 
-  /// Solves to |b − A x| ≤ `relative_tolerance` |b|, factorisations to round-off. Returns the number of
+  /// Solves until the residual r = b − A x has fallen to `relative_tolerance` of that of x = 0, in the norm
+  /// that the solver measures it in; factorisations to round-off. Returns the number of
   /// iterations, 1 for factorisations; nothing where conjugate gradients met a direction in which a matrix
   /// said to be symmetric is not positive definite (on all ranks). Throws NumericalError if it fails (on all
   /// ranks).
@@ -45,7 +46,8 @@ std::unique_ptr<LinearSolver> make_direct_solver(Symmetry symmetry);
 /// stiffness. `n_components`: of the displacement, numbered together at each node.
 std::unique_ptr<LinearSolver> make_amg_solver(unsigned int n_components, Symmetry symmetry);
 
-/// Conjugate gradients with incomplete factorisations (Cholesky's, no fill) of the ranks' parts of the
+/// Conjugate gradients, until (rᵀ M⁻¹ r)^½ is small, with incomplete factorisations M (Cholesky's, no fill)
+/// of the ranks' parts of the
 /// matrix, which overlap by one layer. Three to four times faster than multigrid for contact of bulky bodies
 /// up to millions of unknowns (doc/theory.md, section 9). From the first system on that takes too many
 /// iterations, as of slender bodies, `fallback` solves in its place.

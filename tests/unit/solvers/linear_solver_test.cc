@@ -65,6 +65,25 @@ std::vector<std::unique_ptr<LinearSolver>> make_all()
   return all;
 }
 
+/// Counts what it is asked for.
+struct CountingSolver : LinearSolver
+{
+  explicit CountingSolver(unsigned int &counter) : n_solves(counter) {}
+  std::optional<unsigned int> solve(const dealii::TrilinosWrappers::SparseMatrix &matrix,
+                                    const dealii::TrilinosWrappers::MPI::Vector &right_hand_side,
+                                    double relative_tolerance,
+                                    dealii::TrilinosWrappers::MPI::Vector &solution) override
+  {
+    ++n_solves;
+    return direct->solve(matrix, right_hand_side, relative_tolerance, solution);
+  }
+  void forget_pattern() override { direct->forget_pattern(); }
+  std::string name() const override { return "counting"; }
+
+  unsigned int &n_solves;
+  std::unique_ptr<LinearSolver> direct = make_direct_solver(Symmetry::symmetric);
+};
+
 /// Those by conjugate gradients.
 std::vector<std::unique_ptr<LinearSolver>> make_gradient_solvers()
 {
@@ -103,6 +122,18 @@ TEST(LinearSolver, SaysWhereAMatrixIsNotPositiveDefinite)
     EXPECT_TRUE(std::isnan(residual_of(*solver, make_matrix(2., 30)))) << solver->name();
     EXPECT_LT(residual_of(*solver, make_matrix(4.5, 30)), 1e-9) << solver->name();
   }
+}
+
+TEST(LinearSolver, AfterTooManyIterationsAnotherTakesOver)
+{
+  unsigned int n_solves_of_other = 0;
+  const auto solver = make_schwarz_solver(std::make_unique<CountingSolver>(n_solves_of_other));
+  EXPECT_LT(residual_of(*solver, make_matrix(4.5, 30)), 1e-9);
+  EXPECT_EQ(n_solves_of_other, 0u);
+  EXPECT_LT(residual_of(*solver, make_matrix(4.5, 30), 1e-30), 1e-9); // which it never reaches
+  EXPECT_EQ(n_solves_of_other, 1u);
+  EXPECT_LT(residual_of(*solver, make_matrix(5., 30)), 1e-9);
+  EXPECT_EQ(n_solves_of_other, 2u);
 }
 } // namespace
 } // namespace signorini
