@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "signorini/output/fields.h"
 
+#include "signorini/base/collective_error.h"
 #include "signorini/base/exceptions.h"
 
 #include <deal.II/dofs/dof_tools.h>
 #include <deal.II/numerics/data_out.h>
+#include <fmt/format.h>
 
 #include <cmath>
+#include <filesystem>
 #include <fstream>
+#include <functional>
 #include <optional>
 #include <unordered_map>
 
@@ -21,41 +25,17 @@ double von_mises(const Eigen::Matrix3d &stress)
   return std::sqrt(1.5) * deviator.norm();
 }
 
-/// A part's data for output, whose patches can be taken out.
-template <int dim>
-class PartOutput : public dealii::DataOut<dim>
+/// Bounds the memory that writing takes, some 2 kB a cell.
+constexpr unsigned int max_cells_of_piece = 100000;
+
+using Interpretation = dealii::DataComponentInterpretation::DataComponentInterpretation;
+
+dealii::DataOutBase::VtkFlags fast_compression()
 {
-public:
-  using dealii::DataOut<dim>::get_patches;
-  using dealii::DataOut<dim>::get_dataset_names;
-  using dealii::DataOut<dim>::get_nonscalar_data_ranges;
-};
-
-/// The patches of all parts of the mesh, which must have the same data.
-template <int dim>
-class MergedOutput : public dealii::DataOutInterface<dim>
-{
-public:
-  void add(const PartOutput<dim> &output)
-  {
-    patches.insert(patches.end(), output.get_patches().begin(), output.get_patches().end());
-    names = output.get_dataset_names();
-    ranges = output.get_nonscalar_data_ranges();
-  }
-
-private:
-  using Patch = dealii::DataOutBase::Patch<dim, dim>;
-  using Range = std::tuple<unsigned int, unsigned int, std::string,
-                           dealii::DataComponentInterpretation::DataComponentInterpretation>;
-
-  const std::vector<Patch> &get_patches() const override { return patches; }
-  std::vector<std::string> get_dataset_names() const override { return names; }
-  std::vector<Range> get_nonscalar_data_ranges() const override { return ranges; }
-
-  std::vector<Patch> patches;
-  std::vector<std::string> names;
-  std::vector<Range> ranges;
-};
+  dealii::DataOutBase::VtkFlags flags;
+  flags.compression_level = dealii::DataOutBase::VtkFlags::ZlibCompressionLevel::best_speed;
+  return flags;
+}
 
 using CellData = std::vector<std::pair<std::string, dealii::Vector<float>>>;
 
@@ -85,6 +65,72 @@ CellData make_cell_data(const MeshPart<dim> &part, const std::vector<Eigen::Matr
     ++own_cell;
   }
   return data;
+}
+
+/// Of this rank.
+template <int dim>
+unsigned int n_pieces(const MeshPart<dim> &part)
+{
+  const std::size_t n_cells = part.own_cells().size();
+  return static_cast<unsigned int>((n_cells + max_cells_of_piece - 1) / max_cells_of_piece);
+}
+
+/// The number of all ranks' pieces, and of those of the ranks before this one (collective).
+template <int dim>
+std::pair<unsigned int, unsigned int> count_pieces(const Discretization<dim> &discretization)
+{
+  unsigned int n_own = 0;
+  for (const MeshPart<dim> *part : discretization.parts)
+    n_own += n_pieces(*part);
+  const MPI_Comm communicator = discretization.communicator();
+  unsigned int n_before = 0; // which MPI leaves alone on the first rank
+  MPI_Exscan(&n_own, &n_before, 1, MPI_UNSIGNED, MPI_SUM, communicator);
+  return {dealii::Utilities::MPI::sum(n_own, communicator), n_before};
+}
+
+/// Throws FileError.
+void write_file(const std::string &path, const std::function<void(std::ostream &)> &write_to)
+{
+  std::ofstream file(path);
+  try
+  {
+    write_to(file);
+  }
+  catch (const dealii::ExceptionBase &)
+  {
+    file.setstate(std::ios::failbit);
+  }
+  if (!file.flush())
+    throw FileError("cannot write '" + path + "': is the disk full?");
+}
+
+/// Writes this rank's pieces of a part to `path`.I.vtu, I from `first_piece` on. Throws FileError.
+template <int dim>
+void write_pieces(const MeshPart<dim> &part, const std::string &path, unsigned int first_piece,
+                  dealii::DataOut<dim> &output)
+{
+  std::vector<unsigned int> piece_of_cell(part.triangulation().n_active_cells(), n_pieces(part));
+  for (unsigned int i = 0; i < part.own_cells().size(); ++i)
+    piece_of_cell[part.own_cells()[i]->active_cell_index()] = i / max_cells_of_piece;
+  for (unsigned int piece = 0; piece < n_pieces(part); ++piece)
+  {
+    output.set_cell_selection(
+        [&piece_of_cell, piece](const typename dealii::Triangulation<dim>::cell_iterator &cell)
+        { return cell->is_active() && piece_of_cell[cell->active_cell_index()] == piece; });
+    output.build_patches(part.mapping(), part.element.degree);
+    write_file(fmt::format("{}.{}.vtu", path, first_piece + piece),
+               [&output](std::ostream &file) { output.write_vtu(file); });
+  }
+}
+
+/// Writes the list of pieces to `path`.pvtu. Throws FileError.
+template <int dim>
+void write_list_of_pieces(const std::string &path, unsigned int n_pieces, const dealii::DataOut<dim> &output)
+{
+  std::vector<std::string> names(n_pieces);
+  for (unsigned int piece = 0; piece < n_pieces; ++piece)
+    names[piece] = fmt::format("{}.{}.vtu", std::filesystem::path(path).filename().string(), piece);
+  write_file(path + ".pvtu", [&](std::ostream &file) { output.write_pvtu_record(file, names); });
 }
 } // namespace
 
@@ -202,30 +248,32 @@ std::pair<Vector, Vector> Fields<dim>::spread(const NodalContact &nodal, const C
 template <int dim>
 void Fields<dim>::write(const State &state, const SceneForces<dim> &forces, const ErrorEstimate &estimate)
 {
-  MergedOutput<dim> data_out;
-  dealii::DataOutBase::VtkFlags flags;
-  flags.compression_level = dealii::DataOutBase::VtkFlags::ZlibCompressionLevel::best_speed;
-  data_out.set_flags(flags);
-  const std::vector<dealii::DataComponentInterpretation::DataComponentInterpretation> vector_data(
-      dim, dealii::DataComponentInterpretation::component_is_part_of_vector);
-  const auto names = [](const char *name) { return std::vector<std::string>(dim, name); };
   const std::vector<Eigen::Matrix3d> stresses = forces.elasticity->stresses();
   std::optional<std::vector<double>> plastic_strains;
   if (forces.elasticity->has_plasticity())
     plastic_strains = forces.elasticity->plastic_strains();
   const NodalContact nodal = map ? project_contact(forces) : NodalContact();
+  const std::string name = fmt::format("solution_{:04}", records.size()), path = directory + "/" + name;
+  const MPI_Comm communicator = discretization->communicator();
+  const bool is_first_rank = dealii::Utilities::MPI::this_mpi_process(communicator) == 0;
+  auto [n_pieces_of_all, piece] = count_pieces(*discretization);
   for (unsigned int p = 0; p < discretization->parts.size(); ++p)
   {
     const MeshPart<dim> &part = *discretization->parts[p];
-    PartOutput<dim> output;
-    output.attach_dof_handler(part.dof_handler);
+    dealii::DataOut<dim> output;
+    output.set_flags(fast_compression());
+    const auto add_vectors = [&](const Vector &values, const char *name_of_values)
+    {
+      output.add_data_vector(part.dof_handler, values, std::vector<std::string>(dim, name_of_values),
+                             std::vector(dim, Interpretation::component_is_part_of_vector));
+    };
     const Vector displacement = part.extract(state.displacement);
-    output.add_data_vector(part.dof_handler, displacement, names("displacement"), vector_data);
+    add_vectors(displacement, "displacement");
     Vector velocity;
     if (state.velocity.size() > 0)
     {
       velocity = part.extract(state.velocity);
-      output.add_data_vector(part.dof_handler, velocity, names("velocity"), vector_data);
+      add_vectors(velocity, "velocity");
     }
     std::pair<Vector, Vector> contact_data;
     if (map)
@@ -238,29 +286,25 @@ void Fields<dim>::write(const State &state, const SceneForces<dim> &forces, cons
                              is_all_contact ? "gap" : "obstacle_gap");
     }
     const CellData cell_data = make_cell_data(part, stresses, plastic_strains, estimate);
-    for (const auto &[name, values] : cell_data)
-      output.add_data_vector(values, name, dealii::DataOut<dim>::type_cell_data);
-    output.build_patches(part.mapping(), part.element.degree);
-    data_out.add(output);
+    for (const auto &[name_of_values, values] : cell_data)
+      output.add_data_vector(values, name_of_values, dealii::DataOut<dim>::type_cell_data);
+    throw_together(communicator,
+                   [&, first_piece = piece, n_all = n_pieces_of_all]
+                   {
+                     write_pieces(part, path, first_piece, output);
+                     if (is_first_rank && p == 0)
+                       write_list_of_pieces(path, n_all, output);
+                   });
+    piece += n_pieces(part);
   }
-
-  try
-  {
-    const std::string record = data_out.write_vtu_with_pvtu_record(
-        directory + "/", "solution", records.size(), discretization->communicator(), 4);
-    records.emplace_back(state.time, record);
-  }
-  catch (const dealii::ExceptionBase &)
-  {
-    throw FileError("cannot write the fields into '" + directory + "': is the disk full?");
-  }
-  if (dealii::Utilities::MPI::this_mpi_process(discretization->communicator()) == 0)
-  {
-    std::ofstream file(directory + "/solution.pvd");
-    dealii::DataOutBase::write_pvd_record(file, records);
-    if (!file)
-      throw FileError("cannot write '" + directory + "/solution.pvd'");
-  }
+  records.emplace_back(state.time, name + ".pvtu");
+  throw_together(communicator,
+                 [&]
+                 {
+                   if (is_first_rank)
+                     write_file(directory + "/solution.pvd", [this](std::ostream &file)
+                                { dealii::DataOutBase::write_pvd_record(file, records); });
+                 });
 }
 
 template class Fields<2>;

@@ -17,6 +17,7 @@ const NameTable<QuasiStaticParameters::LinearSolver> &linear_solvers()
   static const NameTable<QuasiStaticParameters::LinearSolver> table{
       {"automatic", QuasiStaticParameters::LinearSolver::automatic},
       {"direct", QuasiStaticParameters::LinearSolver::direct},
+      {"cg ic", QuasiStaticParameters::LinearSolver::cg_ic},
       {"cg amg", QuasiStaticParameters::LinearSolver::cg_amg}};
   return table;
 }
@@ -174,7 +175,9 @@ void declare_quasi_static(Declarations &declarations)
       "Equilibrium without inertia, in load steps; excludes 'Explicit' and 'Implicit'.");
   declare_entries(quasi_static_entries(), run);
   run.add("Linear solver", one_of(names_in(linear_solvers())), "automatic", "",
-          "By size; factorisation; or conjugate gradients with algebraic multigrid.");
+          "By size; factorisation; or conjugate gradients with incomplete Cholesky factors or algebraic "
+          "multigrid, with "
+          "friction GMRES with multigrid for both.");
 }
 
 void declare_explicit(Declarations &declarations)
@@ -196,7 +199,9 @@ void declare_implicit(Declarations &declarations)
   run.add_required("Time step", positive_number(), "s", "Longest time step.");
   declare_entries(implicit_entries(), run);
   run.add("Linear solver", one_of(names_in(linear_solvers())), "automatic", "",
-          "By size; factorisation; or conjugate gradients with algebraic multigrid.");
+          "By size; factorisation; or conjugate gradients with incomplete Cholesky factors or algebraic "
+          "multigrid, with "
+          "friction GMRES with multigrid for both.");
 }
 
 QuasiStaticParameters read_quasi_static(const SectionReader &section)

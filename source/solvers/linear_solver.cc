@@ -38,28 +38,42 @@ struct PetscSystem
   OwnedSolver solver;
 };
 
+/// What of a matrix PETSc is given. Half of it halves what each iteration reads.
+enum class Storage
+{
+  whole,
+  upper_triangle
+};
+
 /// The rows of a matrix of Trilinos as PETSc takes them, with global columns.
 class Rows
 {
 public:
-  explicit Rows(const dealii::TrilinosWrappers::SparseMatrix &matrix) : epetra(matrix.trilinos_matrix()) {}
+  Rows(const dealii::TrilinosWrappers::SparseMatrix &matrix, Storage the_storage)
+      : epetra(matrix.trilinos_matrix()), storage(the_storage)
+  {
+  }
 
   int size() const { return epetra.NumMyRows(); }
 
-  /// Makes `columns` those of a row and returns its values.
-  const double *take(int row, std::vector<PetscInt> &columns) const
+  /// Appends a row to `columns` and `values`.
+  void append(int row, std::vector<PetscInt> &columns, std::vector<PetscScalar> &values) const
   {
     int n_entries = 0, *local_columns = nullptr;
-    double *values = nullptr;
-    epetra.ExtractMyRowView(row, n_entries, values, local_columns);
-    columns.resize(n_entries);
+    double *values_of_row = nullptr;
+    epetra.ExtractMyRowView(row, n_entries, values_of_row, local_columns);
+    const PetscInt first = storage == Storage::whole ? 0 : epetra.GRID(row);
     for (int i = 0; i < n_entries; ++i)
-      columns[i] = epetra.GCID(local_columns[i]);
-    return values;
+      if (const PetscInt column = epetra.GCID(local_columns[i]); column >= first)
+      {
+        columns.push_back(column);
+        values.push_back(values_of_row[i]);
+      }
   }
 
 private:
   const Epetra_CrsMatrix &epetra;
+  Storage storage;
 };
 
 /// A solver of PETSc's. Keeps matrix, symbolic factorisations and memory from one system to the next of the
@@ -70,7 +84,10 @@ public:
   void forget_pattern() override { system.reset(); }
 
 protected:
-  explicit PetscSolver(Symmetry symmetry_of_matrix) : symmetry(symmetry_of_matrix) {}
+  PetscSolver(Symmetry symmetry_of_matrix, Storage storage_of_matrix)
+      : symmetry(symmetry_of_matrix), storage(storage_of_matrix)
+  {
+  }
 
   static bool is_solved(KSPConvergedReason reason) { return reason > 0; }
   static bool is_indefinite(KSPConvergedReason reason)
@@ -107,6 +124,7 @@ protected:
   }
 
   const Symmetry symmetry;
+  const Storage storage;
   unsigned int n_iterations = 0; ///< of the last run
 
 private:
@@ -116,20 +134,22 @@ private:
   void make_system(const dealii::TrilinosWrappers::SparseMatrix &matrix)
   {
     system = std::make_unique<PetscSystem>();
-    const Rows rows(matrix);
-    std::vector<PetscInt> row_starts{0}, columns, columns_of_row;
+    const Rows rows(matrix, storage);
+    std::vector<PetscInt> row_starts{0}, columns;
     std::vector<PetscScalar> values;
     for (int row = 0; row < rows.size(); ++row)
     {
-      const double *values_of_row = rows.take(row, columns_of_row);
-      columns.insert(columns.end(), columns_of_row.begin(), columns_of_row.end());
-      values.insert(values.end(), values_of_row, values_of_row + columns_of_row.size());
+      rows.append(row, columns, values);
       row_starts.push_back(static_cast<PetscInt>(columns.size()));
     }
     const MPI_Comm communicator = matrix.get_mpi_communicator();
     const auto n = static_cast<PetscInt>(matrix.m());
-    MatCreateMPIAIJWithArrays(communicator, rows.size(), rows.size(), n, n, row_starts.data(), columns.data(),
-                              values.data(), &system->matrix);
+    if (storage == Storage::whole)
+      MatCreateMPIAIJWithArrays(communicator, rows.size(), rows.size(), n, n, row_starts.data(),
+                                columns.data(), values.data(), &system->matrix);
+    else
+      MatCreateMPISBAIJWithArrays(communicator, 1, rows.size(), rows.size(), n, n, row_starts.data(),
+                                  columns.data(), values.data(), &system->matrix);
     if (symmetry == Symmetry::symmetric)
       MatSetOption(system->matrix, MAT_SPD, PETSC_TRUE);
     MatCreateVecs(system->matrix, &system->x, &system->b);
@@ -139,15 +159,18 @@ private:
 
   void set_values(const dealii::TrilinosWrappers::SparseMatrix &matrix)
   {
-    const Rows rows(matrix);
+    const Rows rows(matrix, storage);
     PetscInt row = 0, end = 0;
     MatGetOwnershipRange(system->matrix, &row, &end);
     std::vector<PetscInt> columns;
+    std::vector<PetscScalar> values;
     for (int i = 0; i < rows.size(); ++i, ++row)
     {
-      const double *values = rows.take(i, columns);
-      MatSetValues(system->matrix, 1, &row, static_cast<PetscInt>(columns.size()), columns.data(), values,
-                   INSERT_VALUES);
+      columns.clear();
+      values.clear();
+      rows.append(i, columns, values);
+      MatSetValues(system->matrix, 1, &row, static_cast<PetscInt>(columns.size()), columns.data(),
+                   values.data(), INSERT_VALUES);
     }
     MatAssemblyBegin(system->matrix, MAT_FINAL_ASSEMBLY);
     MatAssemblyEnd(system->matrix, MAT_FINAL_ASSEMBLY);
@@ -159,7 +182,11 @@ private:
 class DirectSolver : public PetscSolver
 {
 public:
-  explicit DirectSolver(Symmetry symmetry_of_matrix) : PetscSolver(symmetry_of_matrix) {}
+  explicit DirectSolver(Symmetry symmetry_of_matrix)
+      : PetscSolver(symmetry_of_matrix,
+                    symmetry_of_matrix == Symmetry::symmetric ? Storage::upper_triangle : Storage::whole)
+  {
+  }
 
   std::optional<unsigned int> solve(const dealii::TrilinosWrappers::SparseMatrix &matrix,
                                     const dealii::TrilinosWrappers::MPI::Vector &right_hand_side,
@@ -187,7 +214,7 @@ class AmgSolver : public PetscSolver
 {
 public:
   AmgSolver(unsigned int n_displacement_components, Symmetry symmetry_of_matrix)
-      : PetscSolver(symmetry_of_matrix), n_components(n_displacement_components)
+      : PetscSolver(symmetry_of_matrix, Storage::whole), n_components(n_displacement_components)
   {
   }
 
@@ -243,8 +270,9 @@ private:
 class SchwarzSolver : public PetscSolver
 {
 public:
-  explicit SchwarzSolver(std::unique_ptr<LinearSolver> solver_of_hard_systems)
-      : PetscSolver(Symmetry::symmetric), fallback(std::move(solver_of_hard_systems))
+  SchwarzSolver(std::unique_ptr<LinearSolver> solver_of_hard_systems, int largest_number_of_iterations)
+      : PetscSolver(Symmetry::symmetric, Storage::upper_triangle),
+        fallback(std::move(solver_of_hard_systems)), max_iterations(largest_number_of_iterations)
   {
   }
 
@@ -290,10 +318,8 @@ private:
     PetscOptionsSetValue(nullptr, "-sub_pc_type", "icc");
   }
 
-  /// What a hundred of multigrid's cost; it takes 60 of contact of bulky bodies (doc/theory.md, section 9).
-  static constexpr int max_iterations = 500;
-
   std::unique_ptr<LinearSolver> fallback;
+  const int max_iterations;
   bool is_too_hard = false;
 };
 } // namespace
@@ -308,8 +334,8 @@ std::unique_ptr<LinearSolver> make_amg_solver(unsigned int n_components, Symmetr
   return std::make_unique<AmgSolver>(n_components, symmetry);
 }
 
-std::unique_ptr<LinearSolver> make_schwarz_solver(std::unique_ptr<LinearSolver> fallback)
+std::unique_ptr<LinearSolver> make_schwarz_solver(std::unique_ptr<LinearSolver> fallback, int max_iterations)
 {
-  return std::make_unique<SchwarzSolver>(std::move(fallback));
+  return std::make_unique<SchwarzSolver>(std::move(fallback), max_iterations);
 }
 } // namespace signorini

@@ -53,38 +53,43 @@ bool NewtonSystem<dim>::constrain(double old_time, double time)
   for (const dealii::types::global_dof_index dof : discretization->unused_dofs)
     constraints.add_line(dof);
   constraints.close();
-  system.constraints = &constraints;
   return do_supports_move;
+}
+
+template <int dim>
+void NewtonSystem<dim>::prepare(const std::vector<std::shared_ptr<ForceTerm>> &coupling_terms,
+                                TangentSystem &empty_system) const
+{
+  dealii::TrilinosWrappers::SparsityPattern pattern(discretization->owned_dofs, discretization->owned_dofs,
+                                                    relevant_dofs, discretization->communicator());
+  discretization->add_couplings(constraints, pattern);
+  for (const auto &term : coupling_terms)
+    term->add_couplings(constraints, pattern);
+  for (const dealii::types::global_dof_index dof : discretization->unused_dofs)
+    pattern.add(dof, dof);
+  pattern.compress();
+  empty_system.constraints = &constraints;
+  empty_system.matrix.reinit(pattern);
+  empty_system.right_hand_side.reinit(discretization->owned_dofs, discretization->communicator());
 }
 
 template <int dim>
 void NewtonSystem<dim>::rebuild_matrix()
 {
   constrain(times_of_constraints.first, times_of_constraints.second); // other facets have come near
-  dealii::TrilinosWrappers::SparsityPattern pattern(discretization->owned_dofs, discretization->owned_dofs,
-                                                    relevant_dofs, discretization->communicator());
-  discretization->add_couplings(constraints, pattern);
-  for (const auto &term : *terms)
-    term->add_couplings(constraints, pattern);
-  for (const dealii::types::global_dof_index dof : discretization->unused_dofs)
-    pattern.add(dof, dof);
-  pattern.compress();
-  constant_part.clear();
   linear_solver->forget_pattern();
-  system.matrix.reinit(pattern);
-  system.right_hand_side.reinit(discretization->owned_dofs, discretization->communicator());
+  prepare(*terms, system);
   n_searches_of_matrix = n_searches();
 }
 
 template <int dim>
 void NewtonSystem<dim>::assemble_constant_part()
 {
-  system.matrix = 0.;
+  prepare({}, constant_part);
   for (const auto &term : *terms)
     if (term->has_constant_tangent())
-      term->add_tangent(system);
-  system.matrix.compress(dealii::VectorOperation::add);
-  constant_part.copy_from(system.matrix);
+      term->add_tangent(constant_part);
+  constant_part.matrix.compress(dealii::VectorOperation::add);
 }
 
 template <int dim>
@@ -98,11 +103,11 @@ void NewtonSystem<dim>::assemble(const Vector &forces, ContactTangent kind)
       do_supports_move || std::none_of(terms->begin(), terms->end(),
                                        [](const auto &term) { return term->has_constant_tangent(); });
   system.right_hand_side = 0.;
-  if (!is_all_anew && constant_part.m() == 0)
+  if (!is_all_anew && constant_part.matrix.m() == 0)
     assemble_constant_part();
   system.matrix = 0.;
   if (!is_all_anew)
-    system.matrix.add(1., constant_part);
+    system.matrix.add(1., constant_part.matrix);
   system.contact_tangent = kind;
   for (const auto &term : *terms)
     if (is_all_anew || !term->has_constant_tangent())

@@ -15,8 +15,13 @@ namespace signorini
 {
 namespace
 {
-/// Up to about here sparse factorisation beats iteration (measured in 3-D, doc/theory.md).
-constexpr unsigned int max_n_dofs_direct_3d = 60000, max_n_dofs_direct_2d = 200000;
+/// Up to about so many degrees of freedom sparse factorisation beats incomplete factors, or multigrid
+/// (measured in 3-D, doc/theory.md).
+struct DirectLimits
+{
+  unsigned int against_incomplete, against_multigrid;
+};
+constexpr DirectLimits direct_limits_2d{200000, 200000}, direct_limits_3d{3000, 60000};
 
 /// Holds frictions for an iteration, until the end of its scope, whatever ends it.
 template <int dim>
@@ -67,15 +72,19 @@ std::unique_ptr<LinearSolver> QuasiStaticSolver<dim>::choose_linear_solver() con
 {
   using Choice = QuasiStaticParameters::LinearSolver;
   const unsigned int n_dofs = discretization->owned_dofs.size();
-  const Symmetry symmetry = forces->frictions.empty() ? Symmetry::symmetric : Symmetry::unsymmetric;
-  if (parameters.linear_solver == Choice::direct ||
-      (parameters.linear_solver == Choice::automatic &&
-       n_dofs <= (dim == 2 ? max_n_dofs_direct_2d : max_n_dofs_direct_3d)))
-    return make_direct_solver(symmetry);
-  std::unique_ptr<LinearSolver> amg = make_amg_solver(dim, symmetry);
-  return parameters.linear_solver == Choice::automatic && symmetry == Symmetry::symmetric
-             ? make_schwarz_solver(std::move(amg))
-             : std::move(amg);
+  const bool is_symmetric = forces->frictions.empty();
+  const Symmetry symmetry = is_symmetric ? Symmetry::symmetric : Symmetry::unsymmetric;
+  const DirectLimits &limits = dim == 2 ? direct_limits_2d : direct_limits_3d;
+  const bool is_automatic = parameters.linear_solver == Choice::automatic;
+  const auto make_without_incomplete = [&]
+  {
+    return parameters.linear_solver == Choice::direct || (is_automatic && n_dofs <= limits.against_multigrid)
+               ? make_direct_solver(symmetry)
+               : make_amg_solver(dim, symmetry);
+  };
+  const bool is_incomplete = is_symmetric && (parameters.linear_solver == Choice::cg_ic ||
+                                              (is_automatic && n_dofs > limits.against_incomplete));
+  return is_incomplete ? make_schwarz_solver(make_without_incomplete()) : make_without_incomplete();
 }
 
 template <int dim>

@@ -15,7 +15,8 @@
 
 namespace signorini
 {
-/// Writes solution_NNNN.vtu (and .pvtu) and keeps solution.pvd, the list of all of them, up to date.
+/// Writes solution_NNNN.pvtu with its pieces, solution_NNNN.I.vtu, and keeps solution.pvd, the list of all of
+/// them, up to date. Ranks with many cells write several pieces, which bounds the memory that it takes.
 ///
 /// Point data: displacement [m], velocity [m/s] (explicit runs), contact_pressure [Pa] and gap [m] (with
 /// contact; of the pressure see ContactForce::nodal_pressures(); the gap is at most one layer thickness and

@@ -207,6 +207,7 @@ struct QuasiStaticParameters
   {
     automatic, ///< by size
     direct,
+    cg_ic, ///< with friction as cg_amg
     cg_amg
   };
   double end_time = 1.;

@@ -47,9 +47,10 @@ std::unique_ptr<LinearSolver> make_direct_solver(Symmetry symmetry);
 std::unique_ptr<LinearSolver> make_amg_solver(unsigned int n_components, Symmetry symmetry);
 
 /// Conjugate gradients, until (rᵀ M⁻¹ r)^½ is small, with incomplete factorisations M (Cholesky's, no fill)
-/// of the ranks' parts of the
-/// matrix, which overlap by one layer. Three to four times faster than multigrid for contact of bulky bodies
-/// up to millions of unknowns (doc/theory.md, section 9). From the first system on that takes too many
-/// iterations, as of slender bodies, `fallback` solves in its place.
-std::unique_ptr<LinearSolver> make_schwarz_solver(std::unique_ptr<LinearSolver> fallback);
+/// of the ranks' parts of the matrix, which overlap by one layer. Four to eight times faster than multigrid
+/// for contact of bulky bodies up to millions of unknowns (doc/theory.md, section 9). From the first system
+/// on that takes more than `max_iterations`, as of slender bodies, `fallback` solves in its place. 500 of
+/// them cost about what a hundred of multigrid's do, which takes 60 for contact of bulky bodies.
+std::unique_ptr<LinearSolver> make_schwarz_solver(std::unique_ptr<LinearSolver> fallback,
+                                                  int max_iterations = 500);
 } // namespace signorini

@@ -14,8 +14,7 @@ namespace signorini
 /// The linear systems of Newton's method: the tangent of all terms and frictions and the constraints of
 /// supports and hanging nodes that it is assembled under.
 ///
-/// Tangents that no state changes (ForceTerm::has_constant_tangent()) are assembled once, until the couplings
-/// change.
+/// Tangents that no state changes (ForceTerm::has_constant_tangent()) are assembled once.
 template <int dim>
 class NewtonSystem
 {
@@ -41,6 +40,8 @@ public:
   std::string linear_solver_name() const { return linear_solver->name(); }
 
 private:
+  /// Gives a system zeros for the couplings within cells and those of the terms.
+  void prepare(const std::vector<std::shared_ptr<ForceTerm>> &coupling_terms, TangentSystem &system) const;
   void rebuild_matrix();
   void assemble_constant_part();
   void assemble(const Vector &forces, ContactTangent kind);
@@ -58,7 +59,7 @@ private:
   bool do_supports_move = false;
   dealii::AffineConstraints<double> constraints;
   TangentSystem system;
-  dealii::TrilinosWrappers::SparseMatrix constant_part; ///< of the tangent; empty until it is assembled
+  TangentSystem constant_part; ///< without a right hand side; empty until it is assembled
   unsigned int n_searches_of_matrix = static_cast<unsigned int>(-1);
 };
 } // namespace signorini

@@ -266,8 +266,9 @@ void ContactPotential<dim>::for_each_tangent(
     const std::function<void(const std::vector<unsigned int> &nodes, const Eigen::MatrixXd &block)> &add,
     bool is_convex) const
 {
-  std::vector<unsigned int> nodes;
-  Eigen::MatrixXd block;
+  // Points that follow each other mostly lie on the same two facets.
+  std::vector<unsigned int> nodes, nodes_of_sum;
+  Eigen::MatrixXd block, sum;
   for_each_overlap_above(
       -verge * pairs.skin(),
       [&](const NearPair &near)
@@ -283,8 +284,18 @@ void ContactPotential<dim>::for_each_tangent(
           compute_obstacle_tangent(near.pair, near.foot, near.stencil, obstacle_hessian(near), block);
         if (near.target != nullptr && near.target->body == near.contactor.body)
           merge_nodes<dim>(nodes, block);
-        add(nodes, block);
+        if (nodes == nodes_of_sum)
+          sum += block;
+        else
+        {
+          if (!nodes_of_sum.empty())
+            add(nodes_of_sum, sum);
+          nodes_of_sum = nodes;
+          sum = block;
+        }
       });
+  if (!nodes_of_sum.empty())
+    add(nodes_of_sum, sum);
 }
 
 template <int dim>
