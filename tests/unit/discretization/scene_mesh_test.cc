@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "signorini/discretization/scene_mesh.h"
+#include "built_scene.h"
 
 #include "signorini/base/exceptions.h"
+#include "signorini/discretization/scene_mesh.h"
 
 #include <deal.II/base/mpi.h>
 
-#include <gtest/gtest.h>
-
 using namespace signorini;
+using namespace signorini::test;
 
 namespace
 {
@@ -58,5 +58,66 @@ TEST(MeshesOnRanks, FailTogether)
 {
   const auto fail = [](unsigned int) -> SizeField { throw FileError("the size is gone"); };
   EXPECT_THROW(place_simplex_meshes<3>({make_ball_of_tetrahedra()}, 1, MPI_COMM_WORLD, fail), FileError);
+}
+
+template <typename T>
+class HexahedraOnRanks : public testing::Test
+{
+public:
+  static constexpr int dim = T::dim;
+
+  static BodyParameters ball(MeshParameters::Part part, unsigned int levels)
+  {
+    BodyParameters body = make_ball("ball", 1., 1);
+    body.mesh.part = part;
+    Triple pole{};
+    pole[dim - 1] = 1.;
+    return graded(body, pole, levels, .025);
+  }
+};
+TYPED_TEST_SUITE(HexahedraOnRanks, LinearCases);
+
+/// Every level coarsens the parts of the mesh that a rank gives away, and builds others in their place.
+TYPED_TEST(HexahedraOnRanks, AreTheSameHoweverOftenTheyChangeRanks)
+{
+  constexpr int dim = TypeParam::dim;
+  using Part = MeshParameters::Part;
+  for (const Part part : {Part::whole, Part::half, Part::orthant})
+  {
+    const BodyParameters ball = TestFixture::ball(part, 7);
+    const auto shared = make_scene_mesh<dim>({ball}, MPI_COMM_WORLD);
+    const auto alone = make_scene_mesh<dim>({ball}, MPI_COMM_SELF);
+    std::map<dealii::CellId, dealii::Point<dim>> corners;
+    for (const auto &cell : alone->active_cell_iterators())
+      corners[cell->id()] = cell->vertex(cell->n_vertices() - 1);
+    EXPECT_EQ(shared->n_global_active_cells(), corners.size());
+    double farthest = 0.;
+    for (const auto &cell : shared->active_cell_iterators())
+      if (!cell->is_artificial())
+        farthest = std::max(farthest, corners.at(cell->id()).distance(cell->vertex(cell->n_vertices() - 1)));
+    EXPECT_LT(farthest, 1e-12) << "part " << static_cast<int>(part);
+  }
+}
+
+/// What deal.II need not cope with: a face that runs along one of its lines against the direction of that
+/// line.
+TEST(MeshesOnRanks, LinesRunOneWayForAllCells)
+{
+  using Shape = MeshParameters::Shape;
+  using Part = MeshParameters::Part;
+  for (const Shape shape : {Shape::box, Shape::ball, Shape::cylinder})
+    for (const Part part : {Part::whole, Part::half, Part::orthant})
+    {
+      BodyParameters body = make_ball("body", 1., 0);
+      body.mesh.shape = shape;
+      body.mesh.part = part;
+      body.mesh.upper_corner = {1., 1., 1.};
+      body.mesh.cells = {2, 2, 2};
+      body.mesh.length = 2.;
+      const auto mesh = make_scene_mesh<3>({body}, MPI_COMM_SELF);
+      for (const auto &face : mesh->active_face_iterators())
+        for (const unsigned int line : face->line_indices())
+          EXPECT_TRUE(face->line_orientation(line)) << face->center();
+    }
 }
 } // namespace
