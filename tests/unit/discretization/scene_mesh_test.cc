@@ -11,6 +11,9 @@ using namespace signorini::test;
 
 namespace
 {
+constexpr std::array all_parts{MeshParameters::Part::whole, MeshParameters::Part::half,
+                               MeshParameters::Part::orthant};
+
 unsigned int this_rank()
 {
   return dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD);
@@ -81,8 +84,7 @@ TYPED_TEST_SUITE(HexahedraOnRanks, LinearCases);
 TYPED_TEST(HexahedraOnRanks, AreTheSameHoweverOftenTheyChangeRanks)
 {
   constexpr int dim = TypeParam::dim;
-  using Part = MeshParameters::Part;
-  for (const Part part : {Part::whole, Part::half, Part::orthant})
+  for (const MeshParameters::Part part : all_parts)
   {
     const BodyParameters ball = TestFixture::ball(part, 7);
     const auto shared = make_scene_mesh<dim>({ball}, MPI_COMM_WORLD);
@@ -104,9 +106,8 @@ TYPED_TEST(HexahedraOnRanks, AreTheSameHoweverOftenTheyChangeRanks)
 TEST(MeshesOnRanks, LinesRunOneWayForAllCells)
 {
   using Shape = MeshParameters::Shape;
-  using Part = MeshParameters::Part;
   for (const Shape shape : {Shape::box, Shape::ball, Shape::cylinder})
-    for (const Part part : {Part::whole, Part::half, Part::orthant})
+    for (const MeshParameters::Part part : all_parts)
     {
       BodyParameters body = make_ball("body", 1., 0);
       body.mesh.shape = shape;
