@@ -54,9 +54,9 @@ void append_body(const BodyParameters &parameters, unsigned int body, CoarseScen
   make_coarse_body_mesh(parameters.mesh, mesh);
   const Placement<dim> placement(parameters.placement);
   auto [vertices, cells, faces] = dealii::GridTools::get_coarse_mesh_description(mesh);
-  // An eighth of a ball comes with edges that its cells run along in opposite directions. deal.II copes with
-  // them, but since 9.5 not when it refines a face in the place of one that was coarsened, as a change of
-  // ranks does everywhere.
+  // An eighth of a ball comes with edges that its cells run along in opposite directions. deal.II 9.6 mixes
+  // up the children of their faces where it refines what was coarsened, as it does everywhere when cells
+  // change ranks.
   dealii::GridTools::consistently_order_cells(cells);
 
   const unsigned int first_vertex = scene.vertices.size();
