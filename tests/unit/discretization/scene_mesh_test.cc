@@ -63,20 +63,18 @@ TEST(MeshesOnRanks, FailTogether)
   EXPECT_THROW(place_simplex_meshes<3>({make_ball_of_tetrahedra()}, 1, MPI_COMM_WORLD, fail), FileError);
 }
 
+BodyParameters make_graded_ball(MeshParameters::Part part, unsigned int dim)
+{
+  BodyParameters ball = make_ball("ball", 1., 1);
+  ball.mesh.part = part;
+  Triple pole{};
+  pole[dim - 1] = 1.;
+  return graded(ball, pole, 7, .025);
+}
+
 template <typename T>
 class HexahedraOnRanks : public testing::Test
 {
-public:
-  static constexpr int dim = T::dim;
-
-  static BodyParameters ball(MeshParameters::Part part, unsigned int levels)
-  {
-    BodyParameters body = make_ball("ball", 1., 1);
-    body.mesh.part = part;
-    Triple pole{};
-    pole[dim - 1] = 1.;
-    return graded(body, pole, levels, .025);
-  }
 };
 TYPED_TEST_SUITE(HexahedraOnRanks, LinearCases);
 
@@ -86,7 +84,7 @@ TYPED_TEST(HexahedraOnRanks, AreTheSameHoweverOftenTheyChangeRanks)
   constexpr int dim = TypeParam::dim;
   for (const MeshParameters::Part part : all_parts)
   {
-    const BodyParameters ball = TestFixture::ball(part, 7);
+    const BodyParameters ball = make_graded_ball(part, dim);
     const auto shared = make_scene_mesh<dim>({ball}, MPI_COMM_WORLD);
     const auto alone = make_scene_mesh<dim>({ball}, MPI_COMM_SELF);
     std::map<dealii::CellId, dealii::Point<dim>> corners;
