@@ -54,6 +54,10 @@ void append_body(const BodyParameters &parameters, unsigned int body, CoarseScen
   make_coarse_body_mesh(parameters.mesh, mesh);
   const Placement<dim> placement(parameters.placement);
   auto [vertices, cells, faces] = dealii::GridTools::get_coarse_mesh_description(mesh);
+  // An eighth of a ball comes with edges that its cells run along in opposite directions. deal.II 9.6 mixes
+  // up the children of their faces where it refines what was coarsened, as it does everywhere when cells
+  // change ranks.
+  dealii::GridTools::consistently_order_cells(cells);
 
   const unsigned int first_vertex = scene.vertices.size();
   for (const dealii::Point<dim> &vertex : vertices)

@@ -1,16 +1,19 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "signorini/discretization/scene_mesh.h"
+#include "built_scene.h"
 
 #include "signorini/base/exceptions.h"
+#include "signorini/discretization/scene_mesh.h"
 
 #include <deal.II/base/mpi.h>
 
-#include <gtest/gtest.h>
-
 using namespace signorini;
+using namespace signorini::test;
 
 namespace
 {
+constexpr std::array all_parts{MeshParameters::Part::whole, MeshParameters::Part::half,
+                               MeshParameters::Part::orthant};
+
 unsigned int this_rank()
 {
   return dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD);
@@ -58,5 +61,62 @@ TEST(MeshesOnRanks, FailTogether)
 {
   const auto fail = [](unsigned int) -> SizeField { throw FileError("the size is gone"); };
   EXPECT_THROW(place_simplex_meshes<3>({make_ball_of_tetrahedra()}, 1, MPI_COMM_WORLD, fail), FileError);
+}
+
+BodyParameters make_graded_ball(MeshParameters::Part part, unsigned int dim)
+{
+  BodyParameters ball = make_ball("ball", 1., 1);
+  ball.mesh.part = part;
+  Triple pole{};
+  pole[dim - 1] = 1.;
+  return graded(ball, pole, 7, .025);
+}
+
+template <typename T>
+class HexahedraOnRanks : public testing::Test
+{
+};
+TYPED_TEST_SUITE(HexahedraOnRanks, LinearCases);
+
+/// Every level coarsens the parts of the mesh that a rank gives away, and builds others in their place.
+TYPED_TEST(HexahedraOnRanks, AreTheSameHoweverOftenTheyChangeRanks)
+{
+  constexpr int dim = TypeParam::dim;
+  for (const MeshParameters::Part part : all_parts)
+  {
+    const BodyParameters ball = make_graded_ball(part, dim);
+    const auto shared = make_scene_mesh<dim>({ball}, MPI_COMM_WORLD);
+    const auto alone = make_scene_mesh<dim>({ball}, MPI_COMM_SELF);
+    std::map<dealii::CellId, dealii::Point<dim>> corners;
+    for (const auto &cell : alone->active_cell_iterators())
+      corners[cell->id()] = cell->vertex(cell->n_vertices() - 1);
+    EXPECT_EQ(shared->n_global_active_cells(), corners.size());
+    double farthest = 0.;
+    for (const auto &cell : shared->active_cell_iterators())
+      if (!cell->is_artificial())
+        farthest = std::max(farthest, corners.at(cell->id()).distance(cell->vertex(cell->n_vertices() - 1)));
+    EXPECT_LT(farthest, 1e-12) << "part " << static_cast<int>(part);
+  }
+}
+
+/// What deal.II need not cope with: a face that runs along one of its lines against the direction of that
+/// line.
+TEST(MeshesOnRanks, LinesRunOneWayForAllCells)
+{
+  using Shape = MeshParameters::Shape;
+  for (const Shape shape : {Shape::box, Shape::ball, Shape::cylinder})
+    for (const MeshParameters::Part part : all_parts)
+    {
+      BodyParameters body = make_ball("body", 1., 0);
+      body.mesh.shape = shape;
+      body.mesh.part = part;
+      body.mesh.upper_corner = {1., 1., 1.};
+      body.mesh.cells = {2, 2, 2};
+      body.mesh.length = 2.;
+      const auto mesh = make_scene_mesh<3>({body}, MPI_COMM_SELF);
+      for (const auto &face : mesh->active_face_iterators())
+        for (const unsigned int line : face->line_indices())
+          EXPECT_TRUE(face->line_orientation(line)) << face->center();
+    }
 }
 } // namespace
