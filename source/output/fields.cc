@@ -26,7 +26,7 @@ double von_mises(const Eigen::Matrix3d &stress)
 }
 
 /// Bounds the memory that writing takes, some 2 kB a cell.
-constexpr unsigned int max_cells_of_piece = 100000;
+constexpr unsigned int max_cells_of_piece = 25000;
 
 using Interpretation = dealii::DataComponentInterpretation::DataComponentInterpretation;
 
