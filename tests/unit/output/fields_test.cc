@@ -16,6 +16,22 @@ namespace
 {
 namespace files = std::filesystem;
 
+/// Empty, its own.
+files::path make_folder()
+{
+  const files::path folder = files::path(testing::TempDir()) / "signorini_fields";
+  files::remove_all(folder);
+  files::create_directories(folder);
+  return folder;
+}
+
+std::string content_of(const files::path &path)
+{
+  std::ostringstream content;
+  content << std::ifstream(path).rdbuf();
+  return content.str();
+}
+
 /// What is written of two bodies on a floor whose contact with each other is that of surfaces or of volumes.
 std::string write_fields(bool is_by_volumes, Model model = Model::neo_hookean)
 {
@@ -37,16 +53,13 @@ std::string write_fields(bool is_by_volumes, Model model = Model::neo_hookean)
   const ErrorEstimate estimate =
       ErrorEstimator<2>(built.discretization, built.scene, built.forces, &built.map).estimate(built.state);
 
-  const files::path folder = files::path(testing::TempDir()) / "signorini_fields";
-  files::remove_all(folder);
-  files::create_directories(folder);
+  const files::path folder = make_folder();
   Fields<2> fields(folder);
   fields.set_mesh(built.discretization, &built.map);
   fields.write(built.state, built.forces, estimate);
-  std::ostringstream content;
-  content << std::ifstream(folder / "solution_0000.0.vtu").rdbuf();
+  const std::string content = content_of(folder / "solution_0000.0.vtu");
   files::remove_all(folder);
-  return content.str();
+  return content;
 }
 
 bool has(const std::string &content, const std::string &field)
@@ -74,5 +87,35 @@ TEST(Fields, NamePressuresAfterTheContactTheyAreOf)
     EXPECT_FALSE(has(of_surfaces, field));
     EXPECT_TRUE(has(of_volumes, field));
   }
+}
+
+/// Every cell is in one piece, and every piece in the list.
+TEST(Fields, ManyCellsComeInPieces)
+{
+  BuiltScene<2> built(
+      {make_box("small", {1., 1., 0.}, {3, 2, 1}), make_box("large", {1., 1., 0.}, {160, 160, 1})}, 1);
+  built.forces.elasticity->update(built.state);
+  const ErrorEstimate estimate =
+      ErrorEstimator<2>(built.discretization, built.scene, built.forces, nullptr).estimate(built.state);
+  const files::path folder = make_folder();
+  Fields<2> fields(folder);
+  fields.set_mesh(built.discretization, nullptr);
+  fields.write(built.state, built.forces, estimate);
+
+  const std::string list = content_of(folder / "solution_0000.pvtu");
+  unsigned int n_cells = 0, n_pieces = 0;
+  for (const auto &entry : files::directory_iterator(folder))
+    if (entry.path().extension() == ".vtu")
+    {
+      const std::string content = content_of(entry.path()), key = "NumberOfCells=\"";
+      const unsigned int n = std::stoul(content.substr(content.find(key) + key.size()));
+      EXPECT_LE(n, 25000u);
+      EXPECT_NE(list.find('"' + entry.path().filename().string() + '"'), std::string::npos) << list;
+      n_cells += n;
+      ++n_pieces;
+    }
+  EXPECT_EQ(n_cells, 160u * 160u + 6u);
+  EXPECT_EQ(n_pieces, 2u);
+  files::remove_all(folder);
 }
 } // namespace
