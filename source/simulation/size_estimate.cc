@@ -114,6 +114,14 @@ double n_simplices_of_cell(const MeshParameters &mesh, unsigned int dimension)
   return dimension == 3 ? 24. : 4.;
 }
 
+/// Of the rule for the elastic energy.
+double n_points_of_cell(const MeshParameters &mesh, unsigned int dimension, unsigned int degree)
+{
+  if (mesh.cell_type == MeshParameters::CellType::tetrahedra)
+    return degree == 1 ? 1. : dimension + 1.;
+  return std::pow(degree + 1., dimension);
+}
+
 bool is_by_volumes(const Parameters &parameters)
 {
   return parameters.contact && parameters.contact->potential == ContactParameters::Potential::volume &&
@@ -134,15 +142,16 @@ double available_memory(const MPI_Comm &communicator)
 
 SizeEstimate estimate_size(const Parameters &parameters, unsigned int n_ranks)
 {
-  // Measured: a program without cells, a coarse cell on every rank, a cell beside its table of gradients, a
-  // simplex of the volume potential on every rank. A matrix entry takes 16 bytes; its preconditioner or
-  // factors at least as much as two further matrices.
-  constexpr double bytes_of_program = 1.5e8, bytes_of_coarse_cell = 1e3, bytes_of_cell = 2e3,
-                   bytes_of_simplex = 300., bytes_of_entry = 3. * 16.;
+  // Measured: a program without cells, a coarse cell on every rank, a cell beside its points, a degree of
+  // freedom, a simplex of the volume potential on every rank. Points keep inverse Jacobians and weights, once
+  // more for the kernels. A matrix entry takes 16 bytes; its preconditioner or factors at least as much as
+  // two further matrices. Explicit runs of 64 000 and 384 000 cells take 0.9 to 1.25 times as much.
+  constexpr double bytes_of_program = 1.5e8, bytes_of_coarse_cell = 1e3, bytes_of_cell = 1.1e3,
+                   bytes_of_dof = 170., bytes_of_simplex = 300., bytes_of_entry = 3. * 16.;
   const unsigned int dim = parameters.dimension, degree = parameters.degree;
-  const double n_cell_nodes = std::pow(degree + 1., dim);
+  const double bytes_of_point = 2. * sizeof(double) * (dim * dim + 1.);
   SizeEstimate size;
-  double n_coarse = 0., n_simplices = 0., most_cells = 0.;
+  double n_coarse = 0., n_simplices = 0., n_points = 0., most_cells = 0.;
   for (const BodyParameters &body : parameters.bodies)
   {
     const double n_cells = estimate_cells(body.mesh, dim);
@@ -151,12 +160,13 @@ SizeEstimate estimate_size(const Parameters &parameters, unsigned int n_ranks)
     most_cells = std::max(most_cells, n_cells);
     n_coarse += n_coarse_cells(body.mesh, dim);
     size.n_cells += n_cells;
+    n_points += n_cells * n_points_of_cell(body.mesh, dim, degree);
     n_simplices += is_by_volumes(parameters) ? n_cells * n_simplices_of_cell(body.mesh, dim) : 0.;
     size.n_dofs += dim * estimate_nodes(body.mesh, n_cells, dim, degree);
   }
   size.memory =
       n_ranks * (bytes_of_program + bytes_of_coarse_cell * n_coarse + bytes_of_simplex * n_simplices) +
-      size.n_cells * (bytes_of_cell + 1.5 * sizeof(double) * dim * n_cell_nodes * n_cell_nodes);
+      size.n_cells * bytes_of_cell + n_points * bytes_of_point + size.n_dofs * bytes_of_dof;
   if (std::holds_alternative<QuasiStaticParameters>(parameters.solver))
     size.memory += size.n_dofs * dim * std::pow(degree + 2., dim) * bytes_of_entry;
   return size;

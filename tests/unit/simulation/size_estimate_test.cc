@@ -65,6 +65,27 @@ TEST(SizeEstimate, IsNearForGradedMeshes)
   EXPECT_GT(estimate_size(with_body(box, 3), 1).n_cells, 0.3 * graded_box);
 }
 
+/// Resident memory after set-up of explicit runs of a cube of 40 cells along an edge, on one rank.
+TEST(SizeEstimate, IsNearTheMemoryOfExplicitRuns)
+{
+  const auto estimate = [](MeshParameters::CellType type, unsigned int degree)
+  {
+    MeshParameters mesh;
+    mesh.cell_type = type;
+    mesh.cells = {10, 10, 10};
+    mesh.refinements = 2;
+    Parameters parameters = with_body(mesh, 3);
+    parameters.degree = degree;
+    parameters.solver = ExplicitParameters();
+    return estimate_size(parameters, 1).memory;
+  };
+  constexpr double share = 0.25;
+  EXPECT_NEAR(estimate(MeshParameters::CellType::hexahedra, 1), 396e6, share * 396e6);
+  EXPECT_NEAR(estimate(MeshParameters::CellType::hexahedra, 2), 936e6, share * 936e6);
+  EXPECT_NEAR(estimate(MeshParameters::CellType::tetrahedra, 1), 689e6, share * 689e6);
+  EXPECT_NEAR(estimate(MeshParameters::CellType::tetrahedra, 2), 1045e6, share * 1045e6);
+}
+
 /// The volume potential holds the simplices of all cells on every rank.
 TEST(SizeEstimate, VolumePotentialCostsMemoryOnEveryRank)
 {
