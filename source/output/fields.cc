@@ -6,6 +6,7 @@
 
 #include <deal.II/dofs/dof_tools.h>
 #include <deal.II/numerics/data_out.h>
+
 #include <fmt/format.h>
 
 #include <cmath>
@@ -25,7 +26,7 @@ double von_mises(const Eigen::Matrix3d &stress)
   return std::sqrt(1.5) * deviator.norm();
 }
 
-/// Bounds the memory that writing takes, some 2 kB a cell.
+/// Bounds the memory that writing takes, some 3 kB a cell.
 constexpr unsigned int max_cells_of_piece = 25000;
 
 using Interpretation = dealii::DataComponentInterpretation::DataComponentInterpretation;

@@ -24,10 +24,9 @@ public:
   virtual ~LinearSolver() = default;
 
   /// Solves until the residual r = b − A x has fallen to `relative_tolerance` of that of x = 0, in the norm
-  /// that the solver measures it in; factorisations to round-off. Returns the number of
-  /// iterations, 1 for factorisations; nothing where conjugate gradients met a direction in which a matrix
-  /// said to be symmetric is not positive definite (on all ranks). Throws NumericalError if it fails (on all
-  /// ranks).
+  /// that the solver measures it in; factorisations to round-off. Returns the number of iterations, 1 for
+  /// factorisations; nothing where conjugate gradients met a direction in which a matrix said to be symmetric
+  /// is not positive definite (on all ranks). Throws NumericalError if it fails (on all ranks).
   virtual std::optional<unsigned int> solve(const dealii::TrilinosWrappers::SparseMatrix &matrix,
                                             const dealii::TrilinosWrappers::MPI::Vector &right_hand_side,
                                             double relative_tolerance,
@@ -47,10 +46,10 @@ std::unique_ptr<LinearSolver> make_direct_solver(Symmetry symmetry);
 std::unique_ptr<LinearSolver> make_amg_solver(unsigned int n_components, Symmetry symmetry);
 
 /// Conjugate gradients, until (rᵀ M⁻¹ r)^½ is small, with incomplete factorisations M (Cholesky's, no fill)
-/// of the ranks' parts of the matrix, which overlap by one layer. Four to eight times faster than multigrid
-/// for contact of bulky bodies up to millions of unknowns (doc/theory.md, section 9). From the first system
-/// on that takes more than `max_iterations`, as of slender bodies, `fallback` solves in its place. 500 of
-/// them cost about what a hundred of multigrid's do, which takes 60 for contact of bulky bodies.
+/// of the ranks' parts of the matrix, which overlap by one layer. Three to five times faster than multigrid
+/// for contact of bulky bodies of up to 100 000 unknowns (doc/theory.md, section 9). From the first system on
+/// that takes more than `max_iterations`, as of slender bodies, `fallback` solves in its place. 500 of them
+/// cost about what sixty of multigrid's do, as many as it takes for contact of bulky bodies.
 std::unique_ptr<LinearSolver> make_schwarz_solver(std::unique_ptr<LinearSolver> fallback,
                                                   int max_iterations = 500);
 } // namespace signorini

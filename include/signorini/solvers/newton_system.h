@@ -59,7 +59,7 @@ private:
   bool do_supports_move = false;
   dealii::AffineConstraints<double> constraints;
   TangentSystem system;
-  TangentSystem constant_part; ///< without a right hand side; empty until it is assembled
+  TangentSystem constant_part; ///< its right hand side stays 0; empty until it is assembled
   unsigned int n_searches_of_matrix = static_cast<unsigned int>(-1);
 };
 } // namespace signorini
