@@ -67,23 +67,27 @@ template <int dim>
 std::optional<InteriorPoint<dim>> InteriorSearch<dim>::find_in_body(const SpatialVector<dim> &x,
                                                                     unsigned int body) const
 {
-  // Boxes come in rising order of their distance: beyond the nearest facet found so far they cannot matter.
-  // The margin keeps all facets that share the foot, which the sign of the depth needs.
+  // The facets of the nearest boxes bound the distance of the foot. The margin keeps all facets that share
+  // it, which the sign of the depth needs.
+  constexpr unsigned int n_first = 8;
   const BoxTree<dim> &tree = trees->facet_trees[body];
-  std::vector<unsigned int> candidates;
-  double nearest = std::numeric_limits<double>::infinity();
-  const auto query =
-      boost::geometry::index::nearest(make_tree_point<dim>(x), static_cast<unsigned int>(tree.size()));
-  for (auto entry = tree.qbegin(query); entry != tree.qend(); ++entry)
+  std::vector<TreeEntry<dim>> entries;
+  tree.query(boost::geometry::index::nearest(make_tree_point<dim>(x), n_first), std::back_inserter(entries));
+  double bound = std::numeric_limits<double>::infinity(), margin = 0.;
+  for (const TreeEntry<dim> &entry : entries)
   {
-    const unsigned int facet = entry->second;
-    const BoundingBox<dim> &box = trees->facets[facet];
-    if (box.exteriorDistance(x) > nearest + 1e-6 * box.diagonal().norm())
-      break;
-    candidates.push_back(facet);
-    nearest =
-        std::min(nearest, find_closest_point(gather_nodes(surface.facets[facet], positions), x).distance);
+    bound = std::min(bound,
+                     find_closest_point(gather_nodes(surface.facets[entry.second], positions), x).distance);
+    margin = std::max(margin, 1e-6 * trees->facets[entry.second].diagonal().norm());
   }
+  const double reach = bound + margin;
+  entries.clear();
+  tree.query(boost::geometry::index::intersects(make_tree_box<dim>(BoundingBox<dim>(x), reach)),
+             std::back_inserter(entries));
+  std::vector<unsigned int> candidates;
+  for (const TreeEntry<dim> &entry : entries)
+    if (trees->facets[entry.second].exteriorDistance(x) <= reach)
+      candidates.push_back(entry.second);
   const SurfaceFoot<dim> foot =
       FootSearch<dim>(surface.facets, positions, candidates).find(x, std::numeric_limits<double>::infinity());
   if (!(foot.depth > 0.))
