@@ -15,6 +15,7 @@ END, SHORT = 6e-4, 6e-5
 TIMES = {"short": SHORT, "full": END, "watched": END}
 LEVEL = 0.9  # of the kinetic energy, which falls and rises linearly: below it for this share of the contact time
 CONTACT_TIME, ENERGY = 4e-4, 20.0
+LEAST = 0.5  # core-seconds of the timed steps: the start of Signorini alone varies by about 0.05
 
 
 class Case:
@@ -38,6 +39,10 @@ class Case:
 
     @property
     def rate(self):
+        """Element steps per core-second. RunError: the steps took too little to be told from the start of the program."""
+        if self.stepping < LEAST:
+            raise RunError(f"{self.name}: the timed steps took {self.stepping:.3f} core-seconds, fewer than {LEAST}: "
+                           "nothing can be said of their cost; take more --cells")
         return self.element_steps / self.stepping
 
     def execute(self, kind):
