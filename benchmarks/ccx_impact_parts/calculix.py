@@ -1,15 +1,16 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Two bars that collide as a CalculiX deck (m, kg, s), as in parameter_files/study/ccx_impact.prm, and what a run gave."""
+import math
 import re
 
 import numpy
 
-from ccx_hertz_parts.calculix import numbered
-from ccx_hertz_parts.mesh import HEXAHEDRON_CORNERS
+from ccx_common import HEXAHEDRON_CORNERS, RunError, numbered
 
 LENGTH, WIDTH, GAP = 1.0, 0.05, 1e-4
 YOUNGS_MODULUS, DENSITY = 2e11, 8000.0
 STIFFNESS = 0.2  # of the contact, in E/h
+EVERY = 10  # steps from one line of energies to the next
 
 
 def make_bars(across, along):
@@ -25,9 +26,9 @@ def make_bars(across, along):
     return numpy.vstack(points), numpy.vstack(elements)
 
 
-def write_deck(path, element, contact, across, along, end_time, every):
-    """contact: NODE TO SURFACE or SURFACE TO SURFACE. every: the kinetic energy of each step is written, and nothing else;
-    otherwise only what holds at the end. CalculiX chooses the step; with DIRECT version 2.20 does not advance."""
+def write_deck(path, element, contact, across, along, end_time):
+    """contact: NODE TO SURFACE or SURFACE TO SURFACE. CalculiX chooses the time step: told to keep the given one (DIRECT),
+    version 2.20 takes steps of 0 s and never ends."""
     points, elements = make_bars(across, along)
     n_nodes, n_cells, face = len(points) // 2, len(elements) // 2, across * across
     lines = ["*NODE, NSET=ALL", *numbered(points, "{:.15g}")]
@@ -41,14 +42,22 @@ def write_deck(path, element, contact, across, along, end_time, every):
               f"*CONTACT PAIR, INTERACTION=LAW, TYPE={contact}", "BOTTOM,TOP",
               "*INITIAL CONDITIONS, TYPE=VELOCITY", "LOWER,3,1.", "UPPER,3,-1.",
               "*STEP, INC=1000000", "*DYNAMIC, EXPLICIT", f"1e-6,{end_time}",
-              f"*EL PRINT, ELSET=BARS, TOTALS=ONLY, FREQUENCY={1 if every else 1000000}", "ELKE" if every else "ELSE,ELKE"]
-    lines += [] if every else ["*NODE PRINT, NSET=ALL, FREQUENCY=1000000", "V"]
-    path.write_text("\n".join([*lines, "*END STEP"]) + "\n", encoding="ascii")
+              f"*EL PRINT, ELSET=BARS, TOTALS=ONLY, FREQUENCY={EVERY}", "ELSE,ELKE",
+              "*NODE PRINT, NSET=ALL, FREQUENCY=1000000", "V", "*END STEP"]
+    path.write_text("\n".join(lines) + "\n", encoding="ascii")
 
 
 def read_energies(text, kind):
     """Times and energies of the .dat file, n x 2; kind: internal or kinetic."""
     return numpy.array(re.findall(rf"total {kind} energy for set BARS and time\s+(\S+)\s+(\S+)", text), dtype=float)
+
+
+def count_steps(times):
+    """All steps, from the times of every EVERY-th and of the last one. RunError: too few of them."""
+    if len(times) < 3:
+        raise RunError(f"CalculiX took fewer than {2 * EVERY} steps, which are too few to count; take more --cells")
+    step = (times[-2] - times[-3]) / EVERY
+    return EVERY * (len(times) - 1) + math.ceil((times[-1] - times[-2]) / step - 0.01)  # of digits lost
 
 
 def read_velocities(text, across, along):
