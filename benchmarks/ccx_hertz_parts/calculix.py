@@ -2,6 +2,8 @@
 """The Hertz problem as a CalculiX deck (mm, N, MPa), and what a run of it gave."""
 import numpy
 
+from ccx_common import numbered
+
 from . import problem
 
 
@@ -28,10 +30,6 @@ def write_deck(path, element, mesh, stiffness):
               "*BOUNDARY", "X,1,1", "Y,2,2", f"Z,3,3,{problem.APPROACH}", "FLOORNODES,1,3",
               "*CONTACT PRINT", "CSTR", "*CONTACT PRINT, SLAVE=TOUCHING, MASTER=PLANE", "CF", "*END STEP"]
     path.write_text("\n".join(lines) + "\n", encoding="ascii")
-
-
-def numbered(rows, form, first=1):
-    return [f"{number}," + ",".join(map(form.format, row)) for number, row in enumerate(rows, first)]
 
 
 def wrapped(lines, most=15):

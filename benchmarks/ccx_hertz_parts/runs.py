@@ -2,13 +2,11 @@
 """The runs of both codes: series of ever finer meshes, each run a process of its own whose cost is measured alike."""
 import dataclasses
 import json
-import os
-import subprocess
+
+import ccx_common
 
 from . import calculix, mesh, problem
 
-# One thread each, whichever library brings threads.
-ENVIRONMENT = {"OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1", "DEAL_II_NUM_THREADS": "1"}
 CUBE = 1.25  # CalculiX, shells: width of the mesh's cube of equal cells, in contact radii
 BLOCK = 1.5  # the same, mapped
 # CalculiX: kind of mesh, growth of its layers, element, cells along the cube, and contact stiffness in E/h. Tried were, on
@@ -17,10 +15,6 @@ BLOCK = 1.5  # the same, mapped
 CALCULIX_SERIES = (("shells", 1.5, "C3D8I", (3, 4, 5, 6, 8), 20), ("shells", 1.5, "C3D10", (2, 3, 4), 12),
                    ("shells", 1.5, "C3D20R", (2, 3, 4), 18), ("shells", 1.5, "C3D20R", (2, 3, 4, 5), 25),
                    ("mapped", 1.4, "C3D8I", (3, 4, 5, 6), 20), ("mapped", 1.4, "C3D20R", (2, 3), 20))
-
-
-class RunError(Exception):
-    """A code did not finish, or not with a result."""
 
 
 @dataclasses.dataclass
@@ -32,22 +26,15 @@ class Run:
     directory: object
     read: object  # () -> (dofs, computed over Hertz)
     seconds: float = float("inf")  # user and system, the least of the repeats
-    megabytes: float = 0.0  # peak of the resident memory; the system counts this Python's own from before the start
+    megabytes: float = 0.0  # peak of the resident memory
     dofs: int = 0
     errors: dict = dataclasses.field(default_factory=dict)
 
 
 def execute(run):
-    run.directory.mkdir(parents=True, exist_ok=True)
-    with (run.directory / "screen.txt").open("wb") as screen:
-        process = subprocess.Popen(run.command, cwd=run.directory, stdout=screen, stderr=subprocess.STDOUT,
-                                   env={**os.environ, **ENVIRONMENT})
-        _, status, usage = os.wait4(process.pid, 0)
-        process.returncode = os.waitstatus_to_exitcode(status)
-    if process.returncode != 0:
-        raise RunError(f"{run.code} {run.name}: exit code {process.returncode}; see {screen.name}")
-    run.seconds = min(run.seconds, usage.ru_utime + usage.ru_stime)
-    run.megabytes = max(run.megabytes, usage.ru_maxrss / 1024)
+    seconds, megabytes = ccx_common.execute(f"{run.code} {run.name}", run.command, run.directory)
+    run.seconds = min(run.seconds, seconds)
+    run.megabytes = max(run.megabytes, megabytes)
     run.dofs, ratios = run.read()
     run.errors = problem.discretization_errors(ratios)
 
@@ -90,18 +77,15 @@ def signorini_runs(program, file, directory):
 def signorini_run(program, file, directory, series, number, keys):
     name = f"{series} {number}".replace(",", "").replace(" ", "_")
     folder = directory / name
-    command = [program, str(file), "--output", str(folder), "--quiet"]
-    for key, value in keys.items():
-        command += ["--set", f"{key}={value}"]
 
     def read():
         summary = json.loads((folder / "summary.json").read_text(encoding="utf-8"))
         if summary["status"] != "ok":
-            raise RunError(f"Signorini {name}: {summary['reason']}")
+            raise ccx_common.RunError(f"Signorini {name}: {summary['reason']}")
         rows = {row["quantity"]: row for row in summary["errors"]}
         ratios = {name: rows[name]["computed"] / rows[name]["exact"] for name in problem.OWN_DIFFERENCE}
         # Of single points, as in CalculiX; the row has the pressure projected onto the faces.
         ratios["peak pressure"] = summary["contact"]["max_pressure"] / rows["peak pressure"]["exact"]
         return summary["n_dofs"], ratios
 
-    return Run("Signorini", series, name, command, folder, read)
+    return Run("Signorini", series, name, ccx_common.signorini_command(program, file, folder, keys), folder, read)

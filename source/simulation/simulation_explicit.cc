@@ -25,9 +25,12 @@ void Simulation<dim>::run_explicit(const ExplicitParameters &solver_parameters)
   }
   while (state.time < end)
   {
-    if (const double unadapted_step = next_time_step(end); is_adaptation_due(unadapted_step))
-      adapt_in_explicit_run(unadapted_step);
-    const double time_step = next_time_step(end);
+    double time_step = next_time_step(end);
+    if (is_adaptation_due(time_step))
+    {
+      adapt_in_explicit_run(time_step);
+      time_step = next_time_step(end);
+    }
     explicit_solver->step(time_step, state);
     if (end - state.time < 1e-9 * time_step)
       state.time = end;
