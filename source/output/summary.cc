@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <fstream>
 
 namespace signorini
@@ -185,6 +186,13 @@ void write_summary(const Results<dim> &results, const std::string &input, unsign
   summary["warnings"] = results.warnings;
   summary["run_time"] = {{"total", results.total_run_time}, {"sections", results.run_time}};
   summary["memory_peak_mb"] = results.memory_peak_mb;
+  if (results.memory)
+  {
+    summary["memory"] = {{"bytes_per_cell", std::round(results.memory->mesh / results.n_cells)},
+                         {"bytes_of_solver_per_dof", std::round(results.memory->solver / results.n_dofs)}};
+    if (results.n_facets > 0)
+      summary["memory"]["bytes_per_contact_face"] = std::round(results.memory->contact / results.n_facets);
+  }
   if (n_ranks > 1)
     summary["traffic"] = describe_traffic(results);
   if (results.has_contact)

@@ -172,24 +172,35 @@ template <int dim>
 void InternalForce<dim>::add_magnitudes(Vector &magnitudes) const
 {
   const CellTable<dim> &cells = discretization->cells;
-  std::vector<double> slopes;
+  const double *reference_gradients = nullptr; // that `reference_slopes` are of
+  std::vector<double> reference_slopes, lengths, of_node;
   for_each_cell(
       [&](auto &, unsigned int cell, const CellGeometry &geometry, const double *u)
       {
-        const unsigned int *dofs = cells.cell_dofs(cell);
-        slopes.resize(geometry.n_nodes);
+        using Gradient = Eigen::Map<const SpatialVector<dim>>;
+        using Jacobian = Eigen::Map<const Eigen::Matrix<double, dim, dim>>;
+        const unsigned int n_nodes = geometry.n_nodes, *dofs = cells.cell_dofs(cell);
+        if (std::exchange(reference_gradients, geometry.reference_gradients) != geometry.reference_gradients)
+        {
+          reference_slopes.clear();
+          for (unsigned int i = 0; i < geometry.n_points * n_nodes; ++i)
+            reference_slopes.push_back(Gradient(reference_gradients + i * dim).norm());
+        }
+        lengths.clear();
+        for (unsigned int a = 0; a < n_nodes; ++a)
+          lengths.push_back(Gradient(u + a * dim).norm());
+        of_node.assign(n_nodes, 0.);
         for (unsigned int q = 0; q < geometry.n_points; ++q)
         {
-          double strain = 0.;
-          for (unsigned int a = 0; a < geometry.n_nodes; ++a)
-          {
-            slopes[a] = shape_gradient<dim>(geometry, q, a).norm();
-            strain += slopes[a] * Eigen::Map<const SpatialVector<dim>>(u + a * dim).norm();
-          }
-          const double stress = moduli[cells.bodies[cell]] * strain;
-          for (unsigned int i = 0; i < cells.n_cell_dofs(cell); ++i)
-            magnitudes.local_element(dofs[i]) += geometry.weights[q] * stress * slopes[i / dim];
+          const double *slopes = &reference_slopes[q * n_nodes];
+          const double squared = Jacobian(geometry.inverse_jacobians + q * dim * dim).squaredNorm() / dim;
+          const double strain = std::inner_product(slopes, slopes + n_nodes, lengths.begin(), 0.);
+          const double force = geometry.weights[q] * moduli[cells.bodies[cell]] * squared * strain;
+          for (unsigned int a = 0; a < n_nodes; ++a)
+            of_node[a] += force * slopes[a];
         }
+        for (unsigned int i = 0; i < cells.n_cell_dofs(cell); ++i)
+          magnitudes.local_element(dofs[i]) += of_node[i / dim];
       });
 }
 

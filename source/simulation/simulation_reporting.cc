@@ -311,6 +311,8 @@ void Simulation<dim>::finish(std::optional<NumericalError> failure)
     results.reason = failure->complaint().text();
   results.run_time = run_time.sections();
   results.total_run_time = run_time.total();
+  print_results();
+  weigh_parts();
   if (dealii::Utilities::MPI::this_mpi_process(communicator) == 0)
   {
     const unsigned int n_ranks = dealii::Utilities::MPI::n_mpi_processes(communicator);
@@ -318,7 +320,7 @@ void Simulation<dim>::finish(std::optional<NumericalError> failure)
     if (!failure)
       write_profile(results, parameters.output.directory);
   }
-  print_results();
+  print_costs();
   if (failure)
     throw NumericalError(*failure);
 }
@@ -368,6 +370,11 @@ void Simulation<dim>::print_results()
   for (const ErrorRow &row : results.errors)
     progress.say(fmt::format("{:<52} {:>14.7g}  exact {:>14.7g}  error {:+.3e}", row.quantity, row.computed,
                              row.exact, row.relative_error));
+}
+
+template <int dim>
+void Simulation<dim>::print_costs()
+{
   double named = 0.;
   for (const auto &[name, seconds] : results.run_time)
   {
@@ -378,6 +385,12 @@ void Simulation<dim>::print_results()
   progress.say(fmt::format("{:<26} {:9.2f} s  {:5.1f} %", "everything else", results.total_run_time - named,
                            100. * (1. - named / results.total_run_time)));
   progress.say(fmt::format("{:<26} {:9.2f} s", "total", results.total_run_time));
+  if (const auto &memory = results.memory)
+    progress.say(fmt::format(
+        "Memory at the end: {:.0f} bytes a cell, {:.0f} of the solver a degree of freedom{}",
+        memory->mesh / results.n_cells, memory->solver / results.n_dofs,
+        results.n_facets > 0 ? fmt::format(", {:.0f} a contact face", memory->contact / results.n_facets)
+                             : ""));
   progress.say("Output: " + parameters.output.directory);
 }
 

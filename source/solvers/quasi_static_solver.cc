@@ -10,6 +10,7 @@
 
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace signorini
 {
@@ -106,33 +107,33 @@ Vector QuasiStaticSolver<dim>::make_regularization() const
 }
 
 template <int dim>
-double QuasiStaticSolver<dim>::forcing(double residual, double residual_before) const
+double QuasiStaticSolver<dim>::forcing(double residual, double residual_before, double tolerance) const
 {
   // S. C. Eisenstat, H. F. Walker, SIAM J. Sci. Comput. 17, 1996, choice 2: as exact as Newton's method
   // can use. Where nothing makes the next system another, one solve has to do.
-  constexpr double exact = 1e-8, coarsest = 0.01;
+  constexpr double exact = 1e-8, coarsest = 0.05;
   if (forces->contacts.empty() && forces->elasticity->has_constant_tangent())
     return exact;
   const bool is_first = residual_before == std::numeric_limits<double>::max();
   const double ratio = is_first ? 1. : residual / residual_before;
-  const double enough = std::max(exact, 0.1 * parameters.tolerance / residual);
+  const double enough = std::max(exact, 0.1 * tolerance / residual);
   return std::min(coarsest, std::max(enough, 0.9 * ratio * ratio));
 }
 
 template <int dim>
-unsigned int QuasiStaticSolver<dim>::compute_increment(double residual, double residual_before,
+unsigned int QuasiStaticSolver<dim>::compute_increment(double residual, double linear_tolerance,
                                                        Vector &increment)
 {
-  const double tolerance = forcing(residual, residual_before);
   // Far from equilibrium bodies may lie so deep in each other that the exact tangent is indefinite; near it
   // only the exact one converges fast.
   if (residual < 0.2)
     tangent = ContactTangent::exact;
-  std::optional<unsigned int> n_iterations = system.solve(balance.residual(), tangent, tolerance, increment);
+  std::optional<unsigned int> n_iterations =
+      system.solve(balance.residual(), tangent, linear_tolerance, increment);
   if (!n_iterations && tangent == ContactTangent::exact)
   {
     tangent = ContactTangent::convex;
-    n_iterations = system.solve(balance.residual(), tangent, tolerance, increment);
+    n_iterations = system.solve(balance.residual(), tangent, linear_tolerance, increment);
   }
   if (!n_iterations)
     throw NumericalError("the tangent of the bodies is indefinite, as of one that buckles");
@@ -233,11 +234,28 @@ void QuasiStaticSolver<dim>::renew_terms(const State &state)
 }
 
 template <int dim>
-bool QuasiStaticSolver<dim>::find_minimum(State &state, NewtonReport &progress, const Report &report)
+void QuasiStaticSolver<dim>::iterate(double residual_before, double tolerance, State &state,
+                                     NewtonReport &progress)
 {
+  const Hold<dim> hold(*forces);
+  if (!forces->frictions.empty())
+    balance.compute(state);
   Vector increment = discretization->make_vector();
+  progress.linear_iterations =
+      compute_increment(progress.residual, forcing(progress.residual, residual_before, tolerance), increment);
+  progress.step_length = search_along(increment, state);
+  if (progress.step_length == 0.)
+    give_up("no step along Newton's direction lowers the energy", "use more load steps");
+  ++total_iterations;
+  ++progress.iteration;
+}
+
+template <int dim>
+bool QuasiStaticSolver<dim>::find_minimum(double tolerance, State &state, NewtonReport &progress,
+                                          const Report &report)
+{
   progress.residual = std::numeric_limits<double>::max();
-  for (unsigned int iteration = 0;; ++iteration, ++progress.iteration)
+  for (;;)
   {
     const double residual_before = progress.residual;
     progress.residual = balance.judge(state);
@@ -246,48 +264,49 @@ bool QuasiStaticSolver<dim>::find_minimum(State &state, NewtonReport &progress, 
       give_up("an element was turned inside out",
               "use more load steps, or check loads against the stiffness");
     const bool has_stagnated = progress.residual > 0.5 * residual_before;
-    if (balance.is_within(parameters.tolerance, has_stagnated))
+    if (balance.is_within(tolerance, has_stagnated))
       return has_stagnated;
-    if (iteration == parameters.max_iterations)
+    if (progress.iteration >= parameters.max_iterations)
       give_up(fmt::format("Newton's method only reached a relative residual of {:.3g}", progress.residual),
               "use more load steps, or raise Quasi-static/Maximum iterations");
-    const Hold<dim> hold(*forces);
-    if (!forces->frictions.empty())
-      balance.compute(state);
-    progress.linear_iterations = compute_increment(progress.residual, residual_before, increment);
-    progress.step_length = search_along(increment, state);
-    if (progress.step_length == 0.)
-      give_up("no step along Newton's direction lowers the energy", "use more load steps");
-    ++total_iterations;
+    iterate(residual_before, tolerance, state, progress);
   }
 }
 
 template <int dim>
-void QuasiStaticSolver<dim>::find_equilibrium(double time, State &state, const Report &report)
+void QuasiStaticSolver<dim>::find_equilibrium(double time, Way way, State &state, const Report &report)
 {
   renew_terms(state);
   balance.judge(state); // the forces to come from: what round-off is relative to
   move_supports(time, state);
   NewtonReport progress;
+  if (way == Way::by_soft_contact)
+    approach(state, progress, report);
+  // Where points of integration still have to follow the bodies far, nothing more exact than what that
+  // changes is of use.
+  double tolerance = was_softened ? std::max(0.01, parameters.tolerance) : parameters.tolerance;
   double disturbance_before = std::numeric_limits<double>::max();
-  for (;;)
+  for (bool is_first = true;; is_first = false)
   {
     // Points of integration follow the bodies: what was found with the old ones must be an equilibrium with
     // the new.
-    const bool has_stagnated = find_minimum(state, progress, report);
+    const bool has_stagnated = find_minimum(tolerance, state, progress, report);
     renew_terms(state);
     disturbance = balance.judge(state);
-    if (balance.is_within(10. * parameters.tolerance, has_stagnated))
+    const bool is_rough = tolerance > parameters.tolerance;
+    if (!is_rough && balance.is_within(10. * parameters.tolerance, has_stagnated))
     {
       disturbance = 0.;
       return;
     }
     if (disturbance > 0.5 * disturbance_before)
       break;
-    disturbance_before = disturbance;
+    tolerance = std::max(0.01 * disturbance, parameters.tolerance);
+    if (!is_first)
+      disturbance_before = disturbance;
   }
   // Points and bodies follow each other around: let the points be.
-  find_minimum(state, progress, report);
+  find_minimum(parameters.tolerance, state, progress, report);
 }
 
 template <int dim>
@@ -322,17 +341,21 @@ template <int dim>
 bool QuasiStaticSolver<dim>::solve(double time, State &state, const Report &report)
 {
   const State before = state;
-  try
-  {
-    find_equilibrium(time, state, report);
-    return true;
-  }
-  catch (const NumericalError &error)
-  {
-    complaint = error.complaint();
-    state = before;
-    return false;
-  }
+  was_softened = false;
+  for (const Way way : {Way::by_soft_contact, Way::straight})
+    try
+    {
+      find_equilibrium(time, way, state, report);
+      return true;
+    }
+    catch (const NumericalError &error)
+    {
+      complaint = error.complaint();
+      state = before;
+      if (!std::exchange(was_softened, false))
+        break;
+    }
+  return false;
 }
 
 template class QuasiStaticSolver<2>;

@@ -109,6 +109,14 @@ struct Results
   std::map<std::string, double> run_time; ///< by section [s]
   double total_run_time = 0.;
   double memory_peak_mb = 0.;
+  /// What the parts of the run hold at its end, on all ranks [bytes]; none where that is not known.
+  struct Memory
+  {
+    double mesh = 0.;    ///< cells, degrees of freedom, elasticity, and whatever is not named below
+    double solver = 0.;  ///< matrices, factors and vectors of the solver and the error estimate
+    double contact = 0.; ///< surfaces, neighbours, points and feet
+  };
+  std::optional<Memory> memory;
   Traffic traffic; ///< of the rank that sent most, from the end of the set-up to that of the run
 
   bool has_contact = false;

@@ -68,19 +68,6 @@ void add_point_force(const CellGeometry &cell, unsigned int point, const double 
         force[a * dim + i] -= by_reference[i][d] * g[a * dim + d];
 }
 
-/// ∂N/∂X of a node at a point of a cell [1/m].
-template <int dim>
-Eigen::Matrix<double, dim, 1> shape_gradient(const CellGeometry &cell, unsigned int point, unsigned int node)
-{
-  const double *K = cell.inverse_jacobians + point * dim * dim,
-               *g = cell.reference_gradients + (point * cell.n_nodes + node) * dim;
-  Eigen::Matrix<double, dim, 1> gradient = Eigen::Matrix<double, dim, 1>::Zero();
-  for (int d = 0; d < dim; ++d)
-    for (int j = 0; j < dim; ++j)
-      gradient[j] += g[d] * K[d * dim + j];
-  return gradient;
-}
-
 /// Energy, force and tangent of one cell of a given law. Keeps its scratch memory between cells.
 ///
 /// Degree 1: W = Σ_q w_q ψ_shape(H_q) + V U(v̄), v̄ = Σ_q w_q v(H_q) / V, V = Σ_q w_q (mean dilatation).

@@ -6,6 +6,7 @@
 #include "signorini/adaptivity/error_estimator.h"
 #include "signorini/adaptivity/motion_marking.h"
 #include "signorini/base/exceptions.h"
+#include "signorini/base/heap.h"
 #include "signorini/base/run_time.h"
 #include "signorini/discretization/supports.h"
 #include "signorini/discretization/surface_map.h"
@@ -181,10 +182,15 @@ private:
   void gather_results();
   /// What ranks hold and send (collective).
   void measure_distribution();
+  /// Takes the run apart and notes by how much the heap shrinks with each part (collective). The last thing
+  /// done before the report.
+  void weigh_parts();
   void gather_samples();
   void gather_nodal_pressures();
   void gather_extremes();
   void print_results();
+  /// The parts' run times and memory.
+  void print_costs();
   void warn_of_many_steps(double n_steps, const std::string &advice);
   /// Of a body that has turned though its law is not made for that.
   void warn_of_turns();
@@ -206,6 +212,7 @@ private:
     double plastic_work = 0.; ///< since the start of the run [J; J/m in 2-D]
   };
 
+  const std::size_t heap_before_set_up = heap_in_use(); ///< [bytes]
   Parameters parameters;
   const ParameterText *text;
   MPI_Comm communicator;

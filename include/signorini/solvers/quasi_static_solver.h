@@ -66,10 +66,24 @@ public:
   }
 
 private:
-  void find_equilibrium(double time, State &state, const Report &report);
-  /// Newton's method with the present points of integration. Returns whether the residual stopped falling
-  /// before the tolerance, at round-off. Throws NumericalError.
-  bool find_minimum(State &state, NewtonReport &progress, const Report &report);
+  enum class Way
+  {
+    straight,
+    by_soft_contact ///< where that helps, see approach()
+  };
+  void find_equilibrium(double time, Way way, State &state, const Report &report);
+  /// Newton's method with the present points of integration, until every body's relative residual is within
+  /// the tolerance. Returns whether it stopped falling before, at round-off. Throws NumericalError.
+  bool find_minimum(double tolerance, State &state, NewtonReport &progress, const Report &report);
+  /// One iteration of it, from the forces last judged. Throws NumericalError.
+  void iterate(double residual_before, double tolerance, State &state, NewtonReport &progress);
+  /// Brings a state that Newton's method cannot improve much in one iteration near the equilibrium, by
+  /// contact that is soft first and ever stiffer; others stay as they are.
+  void approach(State &state, NewtonReport &progress, const Report &report);
+  /// The stages of approach(), up to the contact that is asked for. Throws NumericalError, also for bodies
+  /// that lie too deep in each other on the way.
+  void stiffen_contact(double penalty_factor, State &state, NewtonReport &progress, const Report &report);
+  void set_penalty_factor(double penalty_factor) const;
   /// Lets the points of integration follow the bodies.
   void renew_terms(const State &state);
   /// Throws NumericalError with what is known of the body farthest from equilibrium.
@@ -80,10 +94,10 @@ private:
   std::unique_ptr<LinearSolver> choose_linear_solver() const;
 
   /// How exactly to solve the linear system of an iteration, relative.
-  double forcing(double residual, double residual_before) const;
+  double forcing(double residual, double residual_before, double tolerance) const;
   /// Newton's direction for the present forces. Returns the number of linear iterations. Throws
   /// NumericalError.
-  unsigned int compute_increment(double residual, double residual_before, Vector &increment);
+  unsigned int compute_increment(double residual, double linear_tolerance, Vector &increment);
   /// What the supports' increments alone bring. Throws NumericalError.
   void predict(Vector &increment);
   void move_supports(double time, State &state);
@@ -105,5 +119,6 @@ private:
   double disturbance = 0.;
   Complaint complaint{""};
   unsigned int total_iterations = 0;
+  bool was_softened = false; ///< contact, in the present solve()
 };
 } // namespace signorini
