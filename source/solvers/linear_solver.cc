@@ -3,6 +3,8 @@
 
 #include "signorini/base/exceptions.h"
 
+#include <deal.II/base/mpi.h>
+
 #include <Epetra_CrsMatrix.h>
 #include <petscksp.h>
 
@@ -92,7 +94,8 @@ protected:
   static bool is_solved(KSPConvergedReason reason) { return reason > 0; }
   static bool is_indefinite(KSPConvergedReason reason)
   {
-    return reason == KSP_DIVERGED_INDEFINITE_MAT || reason == KSP_DIVERGED_INDEFINITE_PC;
+    return reason == KSP_DIVERGED_INDEFINITE_MAT || reason == KSP_DIVERGED_INDEFINITE_PC ||
+           reason == KSP_DIVERGED_PC_FAILED;
   }
 
   /// Returns why it ended.
@@ -105,6 +108,11 @@ protected:
       make_system(matrix);
     else
       set_values(matrix);
+    if (!system->solver)
+    {
+      KSPCreate(matrix.get_mpi_communicator(), &system->solver);
+      configure(system->solver);
+    }
     PetscScalar *entries = nullptr;
     VecGetArray(system->b, &entries);
     std::copy(right_hand_side.begin(), right_hand_side.end(), entries);
@@ -121,6 +129,13 @@ protected:
     std::copy(entries, entries + (solution.end() - solution.begin()), solution.begin());
     VecRestoreArray(system->x, &entries);
     return is_run ? reason : KSP_DIVERGED_NULL;
+  }
+
+  /// Keeps the matrix.
+  void forget_preconditioner()
+  {
+    if (system)
+      KSPDestroy(&system->solver);
   }
 
   const Symmetry symmetry;
@@ -153,8 +168,6 @@ private:
     if (symmetry == Symmetry::symmetric)
       MatSetOption(system->matrix, MAT_SPD, PETSC_TRUE);
     MatCreateVecs(system->matrix, &system->x, &system->b);
-    KSPCreate(communicator, &system->solver);
-    configure(system->solver);
   }
 
   void set_values(const dealii::TrilinosWrappers::SparseMatrix &matrix)
@@ -190,7 +203,7 @@ public:
 
   std::optional<unsigned int> solve(const dealii::TrilinosWrappers::SparseMatrix &matrix,
                                     const dealii::TrilinosWrappers::MPI::Vector &right_hand_side,
-                                    double relative_tolerance,
+                                    const dealii::IndexSet & /*stiff_rows*/, double relative_tolerance,
                                     dealii::TrilinosWrappers::MPI::Vector &solution) override
   {
     if (!is_solved(run(matrix, right_hand_side, relative_tolerance, 1, solution)))
@@ -220,7 +233,7 @@ public:
 
   std::optional<unsigned int> solve(const dealii::TrilinosWrappers::SparseMatrix &matrix,
                                     const dealii::TrilinosWrappers::MPI::Vector &right_hand_side,
-                                    double relative_tolerance,
+                                    const dealii::IndexSet & /*stiff_rows*/, double relative_tolerance,
                                     dealii::TrilinosWrappers::MPI::Vector &solution) override
   {
     const KSPConvergedReason reason = run(matrix, right_hand_side, relative_tolerance, 2000, solution);
@@ -278,11 +291,12 @@ public:
 
   std::optional<unsigned int> solve(const dealii::TrilinosWrappers::SparseMatrix &matrix,
                                     const dealii::TrilinosWrappers::MPI::Vector &right_hand_side,
-                                    double relative_tolerance,
+                                    const dealii::IndexSet &stiff_rows, double relative_tolerance,
                                     dealii::TrilinosWrappers::MPI::Vector &solution) override
   {
     if (is_too_hard)
-      return fallback->solve(matrix, right_hand_side, relative_tolerance, solution);
+      return fallback->solve(matrix, right_hand_side, stiff_rows, relative_tolerance, solution);
+    split_off(stiff_rows, matrix);
     const KSPConvergedReason reason =
         run(matrix, right_hand_side, relative_tolerance, max_iterations, solution);
     if (is_indefinite(reason))
@@ -291,7 +305,7 @@ public:
       return n_iterations;
     is_too_hard = true;
     PetscSolver::forget_pattern();
-    return fallback->solve(matrix, right_hand_side, relative_tolerance, solution);
+    return fallback->solve(matrix, right_hand_side, stiff_rows, relative_tolerance, solution);
   }
   void forget_pattern() override
   {
@@ -309,18 +323,63 @@ private:
     KSPSetType(solver, KSPCG);
     // The energy of the error, not the norm of forces: those of stiff contact would hide all others.
     KSPSetNormType(solver, KSP_NORM_NATURAL);
-    PC schwarz = nullptr;
-    KSPGetPC(solver, &schwarz);
-    PetscMPIInt n_ranks = 1;
-    MPI_Comm_size(PetscObjectComm(reinterpret_cast<PetscObject>(solver)), &n_ranks);
-    PCSetType(schwarz, n_ranks == 1 ? PCBJACOBI : PCASM);
-    PCASMSetType(schwarz, PC_ASM_BASIC); // the symmetric one; for PCASM alone
-    PetscOptionsSetValue(nullptr, "-sub_pc_type", "icc");
+    PC preconditioner = nullptr;
+    KSPGetPC(solver, &preconditioner);
+    const MPI_Comm communicator = PetscObjectComm(reinterpret_cast<PetscObject>(solver));
+    if (!is_split)
+      PCSetType(preconditioner, name_of_schwarz(communicator));
+    else
+    {
+      PCSetType(preconditioner, PCFIELDSPLIT);
+      PCFieldSplitSetType(preconditioner, PC_COMPOSITE_ADDITIVE);
+      add_field(preconditioner, "contact", stiff);
+      add_field(preconditioner, "elements", soft);
+      PetscOptionsSetValue(nullptr, "-fieldsplit_contact_pc_type", PCCHOLESKY);
+      PetscOptionsSetValue(nullptr, "-fieldsplit_contact_pc_factor_mat_solver_type", MATSOLVERMUMPS);
+      PetscOptionsSetValue(nullptr, "-fieldsplit_elements_pc_type", name_of_schwarz(communicator));
+    }
+    for (const std::string part : {"-", "-fieldsplit_elements_"})
+    {
+      PetscOptionsSetValue(nullptr, (part + "pc_asm_type").c_str(), "basic"); // the symmetric one
+      PetscOptionsSetValue(nullptr, (part + "sub_pc_type").c_str(), "icc");
+    }
+    PCSetFromOptions(preconditioner);
+  }
+
+  static const char *name_of_schwarz(MPI_Comm communicator)
+  {
+    return dealii::Utilities::MPI::n_mpi_processes(communicator) == 1 ? PCBJACOBI : PCASM;
+  }
+
+  static void add_field(PC split, const char *name, const std::vector<PetscInt> &rows)
+  {
+    Owned<IS, ISDestroy> indices;
+    ISCreateGeneral(PetscObjectComm(reinterpret_cast<PetscObject>(split)), static_cast<PetscInt>(rows.size()),
+                    rows.data(), PETSC_COPY_VALUES, &indices);
+    PCFieldSplitSetIS(split, name, indices);
+  }
+
+  /// Keeps the preconditioner where the stiff rows are those of before (collective).
+  void split_off(const dealii::IndexSet &stiff_rows, const dealii::TrilinosWrappers::SparseMatrix &matrix)
+  {
+    const MPI_Comm communicator = matrix.get_mpi_communicator();
+    const std::vector<PetscInt> stiff_before =
+        std::exchange(stiff, std::vector<PetscInt>(stiff_rows.begin(), stiff_rows.end()));
+    if (dealii::Utilities::MPI::max(stiff != stiff_before ? 1 : 0, communicator) == 0)
+      return;
+    forget_preconditioner();
+    dealii::IndexSet others = matrix.locally_owned_range_indices();
+    others.subtract_set(stiff_rows);
+    soft.assign(others.begin(), others.end());
+    is_split = dealii::Utilities::MPI::max(stiff.size(), communicator) > 0 &&
+               dealii::Utilities::MPI::max(soft.size(), communicator) > 0;
   }
 
   std::unique_ptr<LinearSolver> fallback;
   const int max_iterations;
   bool is_too_hard = false;
+  bool is_split = false;             ///< whether any rank has stiff rows
+  std::vector<PetscInt> stiff, soft; ///< rows owned here
 };
 } // namespace
 

@@ -109,11 +109,14 @@ void NewtonSystem<dim>::assemble(const Vector &forces, ContactTangent kind)
   if (!is_all_anew)
     system.matrix.add(1., constant_part.matrix);
   system.contact_tangent = kind;
-  for (const auto &term : *terms)
-    if (is_all_anew || !term->has_constant_tangent())
-      term->add_tangent(system);
-  for (const auto &friction : scene_forces->frictions)
-    friction->add_tangent(system);
+  const auto add_tangents = [&](bool of_contact)
+  {
+    for (const auto &term : *terms)
+      if ((term->kind == ForceTerm::Kind::contact) == of_contact &&
+          (is_all_anew || !term->has_constant_tangent()))
+        term->add_tangent(system);
+  };
+  add_tangents(false);
   const auto &partitioner = *forces.get_partitioner();
   for (unsigned int i = 0; i < forces.locally_owned_size(); ++i)
   {
@@ -124,7 +127,42 @@ void NewtonSystem<dim>::assemble(const Vector &forces, ContactTangent kind)
   for (const dealii::types::global_dof_index dof : discretization->unused_dofs)
     system.matrix.add(dof, dof, 1.);
   system.matrix.compress(dealii::VectorOperation::add);
+  const std::vector<double> diagonal_without_contact = owned_diagonal();
+  add_tangents(true);
+  for (const auto &friction : scene_forces->frictions)
+    friction->add_tangent(system);
+  system.matrix.compress(dealii::VectorOperation::add);
+  find_stiff_rows(diagonal_without_contact);
   system.right_hand_side.compress(dealii::VectorOperation::add);
+}
+
+template <int dim>
+std::vector<double> NewtonSystem<dim>::owned_diagonal() const
+{
+  std::vector<double> diagonal;
+  for (const dealii::types::global_dof_index dof : discretization->owned_dofs)
+    diagonal.push_back(system.matrix.diag_element(dof));
+  return diagonal;
+}
+
+template <int dim>
+void NewtonSystem<dim>::find_stiff_rows(const std::vector<double> &diagonal_without_contact)
+{
+  // Softer contact is no harder to solve for than elements are.
+  constexpr double stiff = 2., hard = 100.;
+  stiff_rows = dealii::IndexSet(discretization->owned_dofs.size());
+  const std::vector<double> diagonal = owned_diagonal();
+  double largest_ratio = 1.;
+  for (std::size_t i = 0; i < diagonal.size(); ++i)
+  {
+    const double ratio = diagonal[i] / diagonal_without_contact[i];
+    largest_ratio = std::max(largest_ratio, ratio);
+    if (ratio > stiff)
+      stiff_rows.add_index(discretization->owned_dofs.nth_index_in_set(i));
+  }
+  if (dealii::Utilities::MPI::max(largest_ratio, discretization->communicator()) < hard)
+    stiff_rows.clear();
+  stiff_rows.compress();
 }
 
 template <int dim>
@@ -136,7 +174,7 @@ std::optional<unsigned int> NewtonSystem<dim>::solve(const Vector &forces, Conta
   const auto &partitioner = *forces.get_partitioner();
   dealii::TrilinosWrappers::MPI::Vector solution(discretization->owned_dofs, discretization->communicator());
   const std::optional<unsigned int> n_iterations =
-      linear_solver->solve(system.matrix, system.right_hand_side, tolerance, solution);
+      linear_solver->solve(system.matrix, system.right_hand_side, stiff_rows, tolerance, solution);
   if (!n_iterations)
     return {};
   constraints.distribute(solution);

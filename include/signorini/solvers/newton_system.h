@@ -45,6 +45,9 @@ private:
   void rebuild_matrix();
   void assemble_constant_part();
   void assemble(const Vector &forces, ContactTangent kind);
+  std::vector<double> owned_diagonal() const; ///< of the matrix [N/m]
+  /// Compares with the diagonal of the assembled matrix.
+  void find_stiff_rows(const std::vector<double> &diagonal_without_contact);
 
   const Discretization<dim> *discretization;
   const SupportedDofs<dim> *supports;
@@ -59,6 +62,7 @@ private:
   bool do_supports_move = false;
   dealii::AffineConstraints<double> constraints;
   TangentSystem system;
+  dealii::IndexSet stiff_rows; ///< of `system` that contact makes stiffer than the elements do
   TangentSystem constant_part; ///< its right hand side stays 0; empty until it is assembled
   unsigned int n_searches_of_matrix = static_cast<unsigned int>(-1);
 };
