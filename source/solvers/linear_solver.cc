@@ -316,6 +316,7 @@ private:
     PCSetType(schwarz, n_ranks == 1 ? PCBJACOBI : PCASM);
     PCASMSetType(schwarz, PC_ASM_BASIC); // the symmetric one; for PCASM alone
     PetscOptionsSetValue(nullptr, "-sub_pc_type", "icc");
+    PCSetFromOptions(schwarz); // or the blocks do not read it
   }
 
   std::unique_ptr<LinearSolver> fallback;
