@@ -111,7 +111,7 @@ TEST(LinearSolver, BlocksReadTheirOptions)
   const auto solver = make_schwarz_solver(make_direct_solver(Symmetry::symmetric));
   EXPECT_LT(residual_of(*solver, make_matrix(4.5, 30)), 1e-9);
   PetscBool is_read = PETSC_FALSE;
-  PetscOptionsUsed(nullptr, "-sub_pc_type", &is_read);
+  PetscOptionsUsed(nullptr, "sub_pc_type", &is_read); // the name without the dash
   EXPECT_TRUE(is_read);
 }
 
