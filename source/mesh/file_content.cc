@@ -13,15 +13,37 @@
 
 namespace signorini
 {
-std::string ending_of(const std::string &path)
+namespace
 {
-  std::filesystem::path name = path;
-  if (name.extension() == ".gz" && name.stem().extension() == ".inp")
-    name.replace_extension();
+const std::string ending_of_packed = ".gz";
+
+std::string last_ending(const std::filesystem::path &name)
+{
   std::string ending = name.extension().string();
   std::transform(ending.begin(), ending.end(), ending.begin(),
                  [](const unsigned char character) { return std::tolower(character); });
   return ending;
+}
+
+bool is_packed(const std::filesystem::path &name)
+{
+  return last_ending(name) == ending_of_packed && last_ending(name.stem()) == ".inp";
+}
+} // namespace
+
+std::string ending_of(const std::string &path)
+{
+  const std::filesystem::path name = path;
+  return last_ending(is_packed(name) ? name.stem() : name);
+}
+
+std::vector<std::string> possible_names(const std::string &path)
+{
+  if (is_packed(path))
+    return {path, path.substr(0, path.size() - ending_of_packed.size())};
+  if (ending_of(path) == ".inp")
+    return {path, path + ending_of_packed};
+  return {path};
 }
 
 std::string read_content(const std::string &path)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "signorini/parameters/mesh_parameters.h"
 
+#include "signorini/mesh/file_content.h"
 #include "signorini/mesh/geometry_file.h"
 #include "signorini/mesh/read_mesh_file.h"
 #include "signorini/parameters/section_reader.h"
@@ -128,7 +129,8 @@ void declare_shape(SubsectionDeclaration &mesh, const DeclarationScope &scope, c
     mesh.add_required(
         "File", any_text(), "",
         fmt::format("File: a mesh ({}) or a shape ({}; of STEP the unit is heeded, and becomes m); a "
-                    "relative path begins at the folder of the parameter file.",
+                    "relative path begins at the folder of the parameter file. An .inp may be packed, as "
+                    ".inp.gz: if there is none of the name given, that with or without .gz is taken.",
                     join(mesh_file_endings(), ", "), join(geometry_file_endings(), ", ")));
     mesh.add("Regions", any_text(), "", "",
              "File: names of the regions that are the body, separated by commas; absent: all of it.");
@@ -161,6 +163,26 @@ std::string find_path(const ParameterText &text, const std::string &path)
   return (parameter_file.parent_path() / entry.value).string();
 }
 
+/// The first of the file's possible names that exists.
+std::string find_file(const SectionReader &section, const std::string &path)
+{
+  const std::vector<std::string> names = possible_names(path);
+  const auto found = std::find_if(names.begin(), names.end(),
+                                  [](const std::string &name)
+                                  {
+                                    std::error_code ignored;
+                                    return std::filesystem::exists(name, ignored);
+                                  });
+  if (found == names.end())
+    throw FileError(
+        section
+            .complain("File", names.size() == 1
+                                  ? fmt::format("the file '{}' does not exist", names[0])
+                                  : fmt::format("neither '{}' nor '{}' exists", names[0], names[1]))
+            .advise("correct the name; it is looked for beside the parameter file"));
+  return *found;
+}
+
 std::vector<std::string> read_regions(const SectionReader &section)
 {
   const std::vector<std::string> names = split(section.value("Regions"), ',');
@@ -181,10 +203,7 @@ void read_file(const ParameterText &text, const SectionReader &section, const un
                          .expected(join(mesh_file_endings(), ", ") + " (meshes), " +
                                    join(geometry_file_endings(), ", ") + " (shapes)")
                          .advise("convert the file, or correct the ending of its name"));
-  std::error_code ignored;
-  if (!std::filesystem::exists(mesh.file, ignored))
-    throw FileError(section.complain("File", fmt::format("the file '{}' does not exist", mesh.file))
-                        .advise("correct the name; it is looked for beside the parameter file"));
+  mesh.file = find_file(section, mesh.file);
   if (is_mesh_file(mesh.file))
     mesh.mesh_of_file =
         std::make_shared<const SimplexMesh>(read_mesh_file(mesh.file, dimension, mesh.regions));

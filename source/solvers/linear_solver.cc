@@ -148,29 +148,28 @@ private:
     PC preconditioner = nullptr;
     KSPGetPC(solver, &preconditioner);
     const MPI_Comm communicator = PetscObjectComm(reinterpret_cast<PetscObject>(solver));
+    const bool is_alone = dealii::Utilities::MPI::n_mpi_processes(communicator) == 1;
+    const PCType schwarz = is_alone ? PCBJACOBI : PCASM;
+    // PETSc complains of options that nothing reads.
+    const auto set_option = [](const std::string &option, const char *value)
+    { PetscOptionsSetValue(nullptr, option.c_str(), value); };
     if (!is_split)
-      PCSetType(preconditioner, name_of_schwarz(communicator));
+      PCSetType(preconditioner, schwarz);
     else
     {
       PCSetType(preconditioner, PCFIELDSPLIT);
       PCFieldSplitSetType(preconditioner, PC_COMPOSITE_ADDITIVE);
       add_field(preconditioner, "contact", stiff);
       add_field(preconditioner, "elements", soft);
-      PetscOptionsSetValue(nullptr, "-fieldsplit_contact_pc_type", PCCHOLESKY);
-      PetscOptionsSetValue(nullptr, "-fieldsplit_contact_pc_factor_mat_solver_type", MATSOLVERMUMPS);
-      PetscOptionsSetValue(nullptr, "-fieldsplit_elements_pc_type", name_of_schwarz(communicator));
+      set_option("-fieldsplit_contact_pc_type", PCCHOLESKY);
+      set_option("-fieldsplit_contact_pc_factor_mat_solver_type", MATSOLVERMUMPS);
+      set_option("-fieldsplit_elements_pc_type", schwarz);
     }
-    for (const std::string part : {"-", "-fieldsplit_elements_"})
-    {
-      PetscOptionsSetValue(nullptr, (part + "pc_asm_type").c_str(), "basic"); // the symmetric one
-      PetscOptionsSetValue(nullptr, (part + "sub_pc_type").c_str(), "icc");
-    }
+    const std::string prefix = is_split ? "-fieldsplit_elements_" : "-";
+    set_option(prefix + "sub_pc_type", "icc");
+    if (!is_alone)
+      set_option(prefix + "pc_asm_type", "basic"); // the symmetric one
     PCSetFromOptions(preconditioner);
-  }
-
-  static const char *name_of_schwarz(MPI_Comm communicator)
-  {
-    return dealii::Utilities::MPI::n_mpi_processes(communicator) == 1 ? PCBJACOBI : PCASM;
   }
 
   static void add_field(PC split, const char *name, const std::vector<PetscInt> &rows)

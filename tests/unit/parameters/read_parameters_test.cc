@@ -7,6 +7,8 @@
 
 #include <gtest/gtest.h>
 
+#include <unistd.h>
+
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -60,28 +62,51 @@ TEST(ReadParameters, FillsTheStructs)
   EXPECT_EQ(std::get<ExplicitParameters>(parameters.solver).end_time, 0.1);
 }
 
-TEST(ReadParameters, FilesAreFoundBesideTheParameterFile)
+/// A folder that is there as long as the object.
+struct TemporaryFolder
 {
-  const std::filesystem::path folder = std::filesystem::temp_directory_path() / "signorini_beside";
-  std::filesystem::create_directories(folder);
-  std::ofstream(folder / "two.inp")
+  TemporaryFolder() { std::filesystem::create_directories(path); }
+  ~TemporaryFolder() { std::filesystem::remove_all(path); }
+  TemporaryFolder(const TemporaryFolder &) = delete;
+  TemporaryFolder &operator=(const TemporaryFolder &) = delete;
+
+  const std::filesystem::path path =
+      std::filesystem::temp_directory_path() / ("signorini_beside_" + std::to_string(getpid()));
+};
+
+/// Of two tetrahedra, in a file of this name, by a parameter file beside it that asks for `asked`.
+MeshParameters read_mesh_beside(const std::string &name, const std::string &asked)
+{
+  const TemporaryFolder folder;
+  std::ofstream(folder.path / name)
       << "*NODE\n1, 0, 0, 0\n2, 1, 0, 0\n3, 0, 1, 0\n4, 0, 0, 1\n5, 1, 1, 1\n"
          "*ELEMENT, TYPE=C3D4, ELSET=a\n1, 1, 2, 3, 4\n"
          "*ELEMENT, TYPE=C3D4, ELSET=b\n2, 2, 3, 4, 5\n*SURFACE, NAME=floor\n1, S1\n";
   ParameterText text = read_parameter_text(data_file("minimal.prm"));
-  text.file = (folder / "x.prm").string();
+  text.file = (folder.path / "x.prm").string();
   remove_subsection(text, "Body block/Support top");
-  for (const char *const entry : {"Shape=file", "File=two.inp", "Regions=a"})
-    apply_override(text, "Body block/Mesh/" + std::string(entry));
+  for (const std::string &entry : {std::string("Shape=file"), "File=" + asked, std::string("Regions=a")})
+    apply_override(text, "Body block/Mesh/" + entry);
   apply_override(text, "Body block/Support floor/z=0");
-  const MeshParameters mesh = read_parameters(text).bodies.at(0).mesh;
+  return read_parameters(text).bodies.at(0).mesh;
+}
+
+TEST(ReadParameters, FilesAreFoundBesideTheParameterFile)
+{
+  const MeshParameters mesh = read_mesh_beside("two.inp", "two.inp");
   EXPECT_EQ(mesh.cell_type, MeshParameters::CellType::tetrahedra);
   ASSERT_TRUE(mesh.mesh_of_file);
   EXPECT_EQ(mesh.mesh_of_file->cells.size(), 1u);
   EXPECT_EQ(boundary_names(mesh, 3), (std::vector<std::string>{"floor", "rest"}));
   EXPECT_EQ(boundary_points(mesh, 3, "floor").size(), 3u);
   EXPECT_EQ(boundary_points(mesh, 3, "rest").size(), 4u);
-  std::filesystem::remove_all(folder);
+}
+
+TEST(ReadParameters, FilesAreFoundPackedOrNot)
+{
+  EXPECT_EQ(read_mesh_beside("two.inp", "two.inp.gz").mesh_of_file->cells.size(), 1u);
+  EXPECT_EQ(read_mesh_beside("two.inp.gz", "two.inp").mesh_of_file->cells.size(), 1u);
+  EXPECT_THROW(read_mesh_beside("two.inp", "one.inp.gz"), FileError);
 }
 
 TEST(ReadParameters, TetrahedraHaveAnElementSize)

@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include <petscsys.h>
+
 #include <cmath>
 #include <limits>
 #include <tuple>
@@ -108,6 +110,15 @@ TEST(LinearSolver, OneSystemAfterAnotherOfTheSameAndOfOtherPatterns)
     solver->forget_pattern();
     EXPECT_LT(residual_of(*solver, make_matrix(5., 20)), 1e-9) << solver->name();
   }
+}
+
+TEST(LinearSolver, BlocksReadTheirOptions)
+{
+  const auto solver = make_schwarz_solver(make_direct_solver(Symmetry::symmetric));
+  EXPECT_LT(residual_of(*solver, make_matrix(4.5, 30)), 1e-9);
+  PetscBool is_read = PETSC_FALSE;
+  PetscOptionsUsed(nullptr, "sub_pc_type", &is_read); // the name without the dash
+  EXPECT_TRUE(is_read);
 }
 
 TEST(LinearSolver, AsExactAsIsAsked)
