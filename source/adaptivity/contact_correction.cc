@@ -47,7 +47,7 @@ template <int dim>
 double ContactCorrection<dim>::update(const State &state)
 {
   const std::vector<SpatialVector<dim>> positions = map->positions(state.displacement);
-  recovery.recover(forces->elasticity->point_stresses());
+  recovery.recover(*forces->elasticity);
   std::vector<NodalPressures<dim>> pressures;
   for (const auto &contact : forces->surface_contacts)
     pressures.push_back(contact->facet_pressures());

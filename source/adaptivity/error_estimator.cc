@@ -73,13 +73,13 @@ NodalPressures<dim> ErrorEstimator<dim>::contact_pressures() const
 }
 
 template <int dim>
-double ErrorEstimator<dim>::squared_error(unsigned int cell, const std::vector<Eigen::Matrix3d> &nodal,
-                                          const Eigen::Matrix3d *point_stresses) const
+double ErrorEstimator<dim>::squared_error(unsigned int cell, const std::vector<Eigen::Matrix3d> &nodal) const
 {
   const MaterialParameters &material = scene->materials[discretization->cells.bodies[cell]];
   const double nu = material.poissons_ratio;
   double sum = 0.;
-  for (const auto &[difference, volume] : recovery.differences(cell, nodal, point_stresses))
+  for (const auto &[difference, volume] :
+       recovery.differences(cell, nodal, forces->elasticity->point_stresses(cell)))
   {
     const double trace = difference.trace();
     sum += volume / material.youngs_modulus * ((1. + nu) * difference.squaredNorm() - nu * trace * trace);
@@ -148,9 +148,8 @@ template <int dim>
 ErrorEstimate ErrorEstimator<dim>::estimate(const State &state)
 {
   const unsigned int n_cells = discretization->cells.n_cells;
-  const std::vector<Eigen::Matrix3d> point_stresses = forces->elasticity->point_stresses();
   const NodalPressures<dim> pressures = contact_pressures();
-  recovery.recover(point_stresses);
+  recovery.recover(*forces->elasticity);
   const std::vector<bool> is_traction_unknown = find_unknown_tractions();
   ErrorEstimate result;
   unsigned int f = 0;
@@ -160,8 +159,7 @@ ErrorEstimate ErrorEstimator<dim>::estimate(const State &state)
     for (; f < faces.size() && faces[f].cell == cell; ++f)
       if (!is_traction_unknown[f])
         balance_tractions(faces[f], state.time, pressures, nodal);
-    result.cell_discretization.push_back(
-        squared_error(cell, nodal, &point_stresses[discretization->cells.first_point(cell)]));
+    result.cell_discretization.push_back(squared_error(cell, nodal));
     result.discretization += result.cell_discretization.back();
   }
   result.discretization = dealii::Utilities::MPI::sum(result.discretization, discretization->communicator());

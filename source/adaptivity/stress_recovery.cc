@@ -111,7 +111,7 @@ const typename StressRecovery<dim>::CellFit &StressRecovery<dim>::fit_of(unsigne
 }
 
 template <int dim>
-void StressRecovery<dim>::recover(const std::vector<Eigen::Matrix3d> &point_stresses)
+void StressRecovery<dim>::recover(const InternalForce<dim> &elasticity)
 {
   const CellTable<dim> &cells = discretization->cells;
   Vector volumes = discretization->make_vector();
@@ -127,11 +127,12 @@ void StressRecovery<dim>::recover(const std::vector<Eigen::Matrix3d> &point_stre
     const double volume = std::accumulate(weights, weights + n_points, 0.);
     const unsigned int *dofs = cells.cell_dofs(cell);
     const Eigen::MatrixXd &fit = fit_of(cell).fit;
+    const std::vector<Eigen::Matrix3d> point_stresses = elasticity.point_stresses(cell);
     for (unsigned int a = 0; a < cells.n_nodes(cell); ++a)
     {
       Eigen::Matrix3d stress = Eigen::Matrix3d::Zero();
       for (unsigned int q = 0; q < n_points; ++q)
-        stress += fit(a, q) * point_stresses[cells.first_point(cell) + q];
+        stress += fit(a, q) * point_stresses[q];
       for (unsigned int d = 0; d < dim; ++d)
       {
         volumes.local_element(dofs[a * dim + d]) += volume;
@@ -173,7 +174,7 @@ std::vector<Eigen::Matrix3d> StressRecovery<dim>::nodal_stresses(unsigned int ce
 template <int dim>
 std::vector<typename StressRecovery<dim>::Sample>
 StressRecovery<dim>::differences(unsigned int cell, const std::vector<Eigen::Matrix3d> &nodal,
-                                 const Eigen::Matrix3d *point_stresses) const
+                                 const std::vector<Eigen::Matrix3d> &point_stresses) const
 {
   const CellFit &fit = fit_of(cell);
   const double *volumes = discretization->cells.cell_weights(cell);

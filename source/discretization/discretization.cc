@@ -245,7 +245,7 @@ void Discretization<dim>::add_cells(MeshPart<dim> &part)
     for (unsigned int node = 0; node < n_nodes; ++node)
       for (unsigned int d = 0; d < dim; ++d)
         reference_gradients.push_back(part.element.base_element(0).shape_grad(node, point)[d]);
-  cells.begin_kind(n_nodes, rule.size(), std::move(reference_gradients));
+  cells.begin_kind(n_nodes, rule.size(), std::move(reference_gradients), part.own_cells().size());
   std::vector<dealii::types::global_dof_index> cell_dofs(n_dofs);
   for (const auto &cell : part.own_cells())
   {

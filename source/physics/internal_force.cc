@@ -205,13 +205,14 @@ void InternalForce<dim>::add_magnitudes(Vector &magnitudes) const
 }
 
 template <int dim>
-std::vector<Eigen::Matrix3d> InternalForce<dim>::point_stresses() const
+std::vector<Eigen::Matrix3d> InternalForce<dim>::point_stresses(unsigned int cell) const
 {
-  const CellTable<dim> &cells = discretization->cells;
-  std::vector<Eigen::Matrix3d> all(cells.n_points());
-  for_each_cell([&](auto &kernel, unsigned int cell, const CellGeometry &geometry, const double *u)
-                { kernel.compute_stresses(geometry, u, &all[cells.first_point(cell)]); });
-  return all;
+  std::vector<Eigen::Matrix3d> at_points(discretization->cells.n_points(cell));
+  std::vector<double> u;
+  with_cell(cell, u,
+            [&](auto &kernel, unsigned int, const CellGeometry &geometry, const double *values)
+            { kernel.compute_stresses(geometry, values, at_points.data()); });
+  return at_points;
 }
 
 template <int dim>
@@ -361,14 +362,14 @@ template <int dim>
 std::vector<Eigen::Matrix3d> InternalForce<dim>::stresses() const
 {
   const CellTable<dim> &cells = discretization->cells;
-  const std::vector<Eigen::Matrix3d> at_points = point_stresses();
   std::vector<Eigen::Matrix3d> means(cells.n_cells, Eigen::Matrix3d::Zero());
   for (unsigned int cell = 0; cell < cells.n_cells; ++cell)
   {
+    const std::vector<Eigen::Matrix3d> at_points = point_stresses(cell);
     const double *weights = cells.cell_weights(cell);
     const unsigned int n_points = cells.n_points(cell);
     for (unsigned int q = 0; q < n_points; ++q)
-      means[cell] += weights[q] * at_points[cells.first_point(cell) + q];
+      means[cell] += weights[q] * at_points[q];
     means[cell] /= std::accumulate(weights, weights + n_points, 0.);
   }
   return means;

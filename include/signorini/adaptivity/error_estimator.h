@@ -46,8 +46,7 @@ private:
   std::vector<bool> find_unknown_tractions() const;
   void add_contact_errors(ErrorEstimate &result) const;
   void find_unseen_contact(const State &state, ErrorEstimate &result) const;
-  double squared_error(unsigned int cell, const std::vector<Eigen::Matrix3d> &nodal,
-                       const Eigen::Matrix3d *point_stresses) const;
+  double squared_error(unsigned int cell, const std::vector<Eigen::Matrix3d> &nodal) const;
 
   const Discretization<dim> *discretization;
   const Scene<dim> *scene;

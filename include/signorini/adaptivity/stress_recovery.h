@@ -2,6 +2,7 @@
 #pragma once
 
 #include "signorini/discretization/discretization.h"
+#include "signorini/physics/internal_force.h"
 
 #include <Eigen/Core>
 
@@ -21,8 +22,8 @@ public:
   /// `discretization` must outlive this object.
   explicit StressRecovery(const Discretization<dim> &discretization);
 
-  /// From stresses at the own cells' quadrature points, [cell][point] [Pa] (collective).
-  void recover(const std::vector<Eigen::Matrix3d> &point_stresses);
+  /// From the stresses at the own cells' quadrature points (collective).
+  void recover(const InternalForce<dim> &elasticity);
 
   /// Recovered stresses at the nodes of an own cell, [node] [Pa].
   std::vector<Eigen::Matrix3d> nodal_stresses(unsigned int cell) const;
@@ -37,7 +38,7 @@ public:
   /// The interpolation of nodal values less the stress of the element, given at its quadrature points, in an
   /// own cell: samples that integrate its square.
   std::vector<Sample> differences(unsigned int cell, const std::vector<Eigen::Matrix3d> &nodal,
-                                  const Eigen::Matrix3d *point_stresses) const;
+                                  const std::vector<Eigen::Matrix3d> &point_stresses) const;
 
 private:
   /// What all cells of one kind have in common.

@@ -55,12 +55,21 @@ struct CellTable
   }
   std::size_t n_points() const { return weights.size(); }
 
-  /// Begins the cells of another kind, all entries of which are then appended to the arrays cell by cell.
-  /// `reference_gradients`: as in Kind.
-  void begin_kind(unsigned int n_nodes, unsigned int n_points, std::vector<double> reference_gradients)
+  /// Begins `n_cells_to_come` cells of another kind, all entries of which are then appended to the arrays
+  /// cell by cell. `reference_gradients`: as in Kind.
+  void begin_kind(unsigned int n_nodes, unsigned int n_points, std::vector<double> reference_gradients,
+                  std::size_t n_cells_to_come)
   {
     kinds.push_back(
         {n_nodes, n_points, std::move(reference_gradients), n_cells, nodal_measures.size(), weights.size()});
+    const auto expect = [&](auto &array, std::size_t n_of_cell)
+    { array.reserve(array.size() + n_cells_to_come * n_of_cell); };
+    expect(dofs, n_nodes * dim);
+    expect(bodies, 1);
+    expect(inverse_jacobians, n_points * dim * dim);
+    expect(weights, n_points);
+    expect(nodal_measures, n_nodes);
+    expect(shape_integrals, n_nodes);
   }
 
 private:

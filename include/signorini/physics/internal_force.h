@@ -40,8 +40,8 @@ public:
   /// what round-off is relative to [N].
   void add_magnitudes(Vector &magnitudes) const;
 
-  /// True stress at every quadrature point of the own cells, [cell][point] [Pa].
-  std::vector<Eigen::Matrix3d> point_stresses() const;
+  /// True stress at every quadrature point of an own cell, [point] [Pa].
+  std::vector<Eigen::Matrix3d> point_stresses(unsigned int cell) const;
 
   /// Makes the state of the last update() the one that further yielding starts from. Returns the work done in
   /// yielding since the last call, of all ranks together [J; J/m in 2-D] (collective). With a step start that
